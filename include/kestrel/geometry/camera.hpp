@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "kestrel/geometry/pixel.hpp"
+
+namespace kestrel {
+
+/// How the lens departs from a pinhole.
+enum class Lens {
+  Pinhole,        // no distortion
+  VispRadial,     // ViSP's perspectiveProjWithDistortion: {kud, kdu}, two approximate inverses
+  PlumbBob,       // OpenCV's and ROS's: {k1, k2, p1, p2, k3}
+  KannalaBrandt,  // ViSP's ProjWithKannalaBrandtDistortion: {k1 .. k5} of theta_d
+};
+
+/// Parameters of a calibrated camera as the files give them.
+struct CameraParameters {
+  double px = 0;  // focal length over pixel width, px
+  double py = 0;
+  double u0 = 0;  // principal point, px
+  double v0 = 0;
+  int width = 0;  // image size the calibration holds for; 0: unknown
+  int height = 0;
+  Lens lens = Lens::Pinhole;
+  std::array<double, 5> distortion{};
+};
+
+/// A calibrated camera: the only way between pixels and the normalised image plane.
+class Camera {
+ public:
+  /// Throws std::invalid_argument for non-finite numbers, px or py <= 0, or a negative size.
+  explicit Camera(const CameraParameters& parameters);
+
+  const CameraParameters& parameters() const { return parameters_; }
+
+  /// Intrinsic matrix K (without the lens).
+  Eigen::Matrix3d K() const;
+
+  /// Where a point of the normalised plane appears, px, lens included.
+  Pixel to_pixel(const ImagePoint& point) const;
+
+  /// Normalised, undistorted point of a pixel. Plumb-bob and Kannala-Brandt are inverted by
+  /// Newton's method to 1e-12; not finite where the lens model has no inverse (beyond its monotonic
+  /// range).
+  ImagePoint to_image_point(const Pixel& pixel) const;
+
+ private:
+  CameraParameters parameters_;
+};
+
+}  // namespace kestrel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "kestrel/geometry/camera.hpp"
+#include "kestrel/geometry/plane_pose.hpp"
+#include "kestrel/geometry/transform.hpp"
+#include "kestrel/servo/servo.hpp"
+#include "kestrel/vehicle/failsafe.hpp"
+#include "kestrel/vehicle/limits.hpp"
+#include "kestrel/vision/track.hpp"
+
+namespace kestrel {
+
+/// Everything the chain needs to know but the frames and the template's picture: one experiment.
+struct Task {
+  Camera camera;
+  Mount body_from_camera;
+  double target_width_m = 0;
+  double target_height_m = 0;
+  TargetPose goal;  // camera_from_target to reach, the camera levelled
+  TrackOptions track;
+  PlanePoseOptions pose;
+  ServoOptions servo;
+  CommandLimits limits;
+  LossOptions loss;
+
+  /// Throws std::invalid_argument that names what is out of range: sizes and options, a mount that
+  /// is no rotation, a goal with the target behind the camera.
+  void check() const;
+};
+
+}  // namespace kestrel

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "kestrel/geometry/transform.hpp"
+#include "kestrel/geometry/twist.hpp"
+#include "kestrel/servo/feature.hpp"
+
+namespace kestrel {
+
+/// Which approximation of the interaction matrix the law inverts (Chaumette & Hutchinson 2006,
+/// section "Approximations of the interaction matrix"). L is taken at the measured features, L* at
+/// the desired ones.
+enum class Interaction {
+  Current,  // L(s, Z)
+  Desired,  // L(s*, Z*)
+  Mean,     // (L(s, Z) + L(s*, Z*)) / 2
+};
+
+/// Which velocities of the vehicle the law may use; the columns of the body's Jacobian eJe.
+enum class Freedom {
+  Six,    // all six of the body twist
+  Four,   // forward, right, down, yaw rate: a helicopter
+  Three,  // forward, right, down: the paper's three references
+};
+
+/// Parameters of the servo law.
+struct ServoOptions {
+  Interaction interaction = Interaction::Mean;
+  Freedom freedom = Freedom::Four;
+  double gain_per_s = 0.5;
+
+  /// Throws std::invalid_argument that names the first option out of range.
+  void check() const;
+};
+
+/// What the law answers.
+struct Servo {
+  CameraTwist twist;      // of the camera, caused by the body velocities of the chosen freedom only
+  Eigen::VectorXd error;  // e = s - s*, (x0 y0 x1 y1 ...), normalised image plane
+  double condition = 0;   // largest over smallest singular value of L cVb eJe; infinite if singular
+};
+
+/// v_c = cVb eJe u with u = -gain (L cVb eJe)^+ (s - s*): image-based visual servoing with the
+/// camera on the vehicle (ViSP: vpServo, EYEINHAND_L_cVe_eJe; paper eq. (6)). measured and desired
+/// are the same points in the same order, at least three, in the frame of the (levelled) camera.
+/// Empty when a depth is not positive, a number is not finite, or the points determine no twist
+/// (rank of the task below the number of velocities).
+std::optional<Servo> servo(const std::vector<Feature>& measured,
+                           const std::vector<Feature>& desired, const Mount& body_from_camera,
+                           const ServoOptions& options);
+
+/// "current", "desired", "mean".
+const char* name(Interaction interaction);
+
+}  // namespace kestrel

@@ -1,0 +1,16 @@
+#include "kestrel/geometry/attitude.hpp"
+
+#include "kestrel/geometry/rotation.hpp"
+
+namespace kestrel {
+
+Eigen::Matrix3d level_from_body(const Attitude& attitude) {
+  return rotation_from_rpy(attitude.roll, attitude.pitch, 0);
+}
+
+Eigen::Matrix3d level_camera_from_camera(const Eigen::Matrix3d& body_R_camera,
+                                         const Attitude& attitude) {
+  return body_R_camera.transpose() * level_from_body(attitude) * body_R_camera;
+}
+
+}  // namespace kestrel

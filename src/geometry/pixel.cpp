@@ -1,0 +1,33 @@
+#include "kestrel/geometry/pixel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kestrel {
+
+double distance(const Pixel& a, const Pixel& b) { return std::hypot(a.u - b.u, a.v - b.v); }
+
+Pixel centre(const PixelBox& box) {
+  return {box.u + (box.width - 1) / 2, box.v + (box.height - 1) / 2};
+}
+
+PixelBox clipped(const PixelBox& box, int image_width, int image_height) {
+  const double left = std::clamp(std::floor(box.u), 0.0, double(image_width));
+  const double top = std::clamp(std::floor(box.v), 0.0, double(image_height));
+  const double right = std::clamp(std::ceil(box.u + box.width), left, double(image_width));
+  const double bottom = std::clamp(std::ceil(box.v + box.height), top, double(image_height));
+  return {left, top, right - left, bottom - top};
+}
+
+PixelBox bounding_box(const std::vector<Pixel>& points) {
+  if (points.empty()) return {};
+  Pixel low = points.front();
+  Pixel high = points.front();
+  for (const Pixel& p : points) {
+    low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+    high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+  }
+  return {low.u, low.v, high.u - low.u + 1, high.v - low.v + 1};
+}
+
+}  // namespace kestrel
