@@ -1,7 +1,5 @@
 // The law of the layers: who may include whom, and which library lives where. It reads every
 // #include below include/, src/ and tests/ and names the file and the include that breaks it.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +8,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -47,8 +47,10 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
 
 /// What a public header may show besides the standard library and Kestrel itself.
 const std::map<std::string, Names> kHeaderShows = {
-    {"vision", {"Eigen/", "opencv2/core"}}, {"loop", {"Eigen/", "opencv2/core"}},
-    {"io", {"Eigen/", "opencv2/core"}},     {"sim", {"Eigen/", "opencv2/core"}},
+    {"vision", {"Eigen/", "opencv2/core"}},
+    {"loop", {"Eigen/", "opencv2/core"}},
+    {"io", {"Eigen/", "opencv2/core"}},
+    {"sim", {"Eigen/", "opencv2/core"}},
 };
 
 struct Include {
@@ -95,8 +97,9 @@ std::string offence(const Include& include) {
   if (include.header && third_party && include.layer != "app") {
     const auto shows = kHeaderShows.find(include.layer);
     const Names allowed = shows == kHeaderShows.end() ? Names{"Eigen/"} : shows->second;
-    const bool shown = std::any_of(allowed.begin(), allowed.end(),
-                                   [&](const std::string& start) { return starts_with(what, start); });
+    const bool shown = std::any_of(allowed.begin(), allowed.end(), [&](const std::string& start) {
+      return starts_with(what, start);
+    });
     if (!shown) return "the public header of " + include.unit + " shows " + what;
   }
   return "";

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kestrel/geometry/pixel.hpp"
+
+namespace kestrel::app {
+
+/// Options of every verb that leaves a run folder.
+struct RunArguments {
+  std::filesystem::path output;  // empty: runs/<name>, a number added when it exists
+  bool video = true;
+  bool display = false;
+};
+
+struct TrackArguments {
+  std::string input;  // sequence description, printf pattern, folder, video, camera:N ...
+  std::optional<PixelBox> roi;
+  int first_frame = 0;
+  std::optional<int> last_frame;
+  std::optional<double> rate_hz;
+  std::filesystem::path truth;
+  std::filesystem::path camera;
+  std::string camera_name = "Camera";
+  std::vector<double> size_m;  // width, height of the target; empty: no pose
+  RunArguments run;
+};
+
+/// When the frames of a recording go down the chain.
+enum class Pace { AsFastAsPossible, RealTime };
+
+struct ServoArguments {
+  std::filesystem::path task;
+  std::string source;  // empty: the task's
+  std::string sink;
+  Pace pace = Pace::AsFastAsPossible;
+  RunArguments run;
+};
+
+struct SimulateArguments {
+  std::filesystem::path task;
+  std::optional<double> duration_s;
+  std::optional<std::int64_t> seed;
+  std::string sink;
+  RunArguments run;
+};
+
+struct ReceiveArguments {
+  std::string address = "udp://127.0.0.1:14550";
+  std::filesystem::path log;
+  std::optional<double> duration_s;
+  std::optional<long> count;
+  bool quiet = false;
+};
+
+struct CheckArguments {
+  std::vector<std::filesystem::path> files;
+};
+
+struct DemoArguments {
+  std::filesystem::path tasks = "tasks";
+  std::filesystem::path output;
+};
+
+using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
+                               CheckArguments, DemoArguments>;
+
+/// What the command line asks for: a verb's arguments, or an exit code after help, version or a
+/// usage error have been printed (0 or 2).
+std::variant<Arguments, int> parse_command_line(int argc, char** argv);
+
+}  // namespace kestrel::app

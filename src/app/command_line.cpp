@@ -1,0 +1,143 @@
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.hpp"
+
+namespace kestrel::app {
+namespace {
+
+constexpr int kUsageError = 2;
+
+/// "x,y,w,h" in whole pixels.
+PixelBox parse_roi(const std::string& text) {
+  std::istringstream in(text);
+  double value[4];
+  char comma = ',';
+  for (int i = 0; i < 4; ++i) {
+    if (i > 0 && (!(in >> comma) || comma != ',')) break;
+    if (!(in >> value[i])) throw CLI::ValidationError("--roi", "'" + text + "' is not x,y,w,h");
+  }
+  if (!in || !(in >> std::ws).eof() || !(value[2] > 0 && value[3] > 0)) {
+    throw CLI::ValidationError(
+        "--roi", "'" + text + "' is not x,y,w,h: four numbers in px, width and height positive");
+  }
+  return {value[0], value[1], value[2], value[3]};
+}
+
+void add_run_options(CLI::App& verb, RunArguments& run) {
+  verb.add_option("--output,--save", run.output,
+                  "Run folder to make (default: runs/<name>; a number is added when it exists)");
+  verb.add_flag("!--no-video", run.video, "Do not write the annotated video");
+  verb.add_flag("--display,!--no-display", run.display,
+                "Show each frame in a window; a right click ends the run (default: no window)");
+}
+
+void add_track(CLI::App& app, std::shared_ptr<TrackArguments> a) {
+  auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
+  verb->add_option("INPUT,--input", a->input,
+                   "sequences/NAME.yaml, a pattern like I%04d.png, a folder, a video file, "
+                   "camera:N, dc1394:, http://...")
+      ->required();
+  verb->add_option_function<std::string>(
+      "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
+      "Template rectangle x,y,w,h in the first frame, px (default: the sequence's own, or drawn "
+      "with the mouse where there is a display)");
+  verb->add_option("--first", a->first_frame, "First frame (number in the file name; default 0)");
+  verb->add_option("--last", a->last_frame, "Last frame (default: the last there is)");
+  verb->add_option("--rate", a->rate_hz, "Frames per second of the recording, Hz");
+  verb->add_option("--truth", a->truth, "CSV with the true corners: frame,x0,y0,...,x3,y3 (px)");
+  verb->add_option("--camera,--intrinsic", a->camera,
+                   "Camera file (ViSP .xml, OpenCV or ROS .yaml), to log the pose too");
+  verb->add_option("--camera-name", a->camera_name,
+                   "Camera's name in a ViSP file (default Camera)");
+  verb->add_option("--size", a->size_m, "Width and height of the target, m, to log the pose")
+      ->expected(2);
+  add_run_options(*verb, a->run);
+}
+
+void add_servo(CLI::App& app, std::shared_ptr<ServoArguments> a) {
+  auto* verb = app.add_subcommand("servo", "Run a task: track, pose, servo, command, send");
+  verb->add_option("TASK", a->task, "Task file (tasks/*.yaml)")->required();
+  verb->add_option("--source,--input,--device", a->source,
+                   "Frames, instead of the task's: sequence:FILE, images:PATTERN, video:FILE, "
+                   "camera:N, dc1394:");
+  verb->add_option("--sink", a->sink,
+                   "Where commands go, instead of the task's: udp://HOST:PORT or none");
+  verb->add_flag_callback(
+      "--real-time", [a] { a->pace = Pace::RealTime; },
+      "Play a recording at its own rate (default: as fast as possible)");
+  add_run_options(*verb, a->run);
+}
+
+void add_simulate(CLI::App& app, std::shared_ptr<SimulateArguments> a) {
+  auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
+  verb->add_option("TASK", a->task, "Task file with a section 'simulation'")->required();
+  verb->add_option("--duration", a->duration_s, "Longest flight, s (default: the task's)");
+  verb->add_option("--seed", a->seed, "Seed of the image noise (default: the task's)");
+  verb->add_option("--sink", a->sink, "Send the commands there too: udp://HOST:PORT");
+  add_run_options(*verb, a->run);
+}
+
+void add_receive(CLI::App& app, std::shared_ptr<ReceiveArguments> a) {
+  auto* verb =
+      app.add_subcommand("receive", "Print, count and log the commands that arrive over UDP");
+  verb->add_option("ADDRESS", a->address, "Where to listen (default udp://127.0.0.1:14550)");
+  verb->add_option("--log", a->log, "CSV file to write");
+  verb->add_option("--duration", a->duration_s, "Stop after this long, s (default: on Ctrl-C)");
+  verb->add_option("--count", a->count, "Stop after this many commands (default: on Ctrl-C)");
+  verb->add_flag("--quiet", a->quiet, "Print the counts at the end only");
+}
+
+void add_check(CLI::App& app, std::shared_ptr<CheckArguments> a) {
+  auto* verb = app.add_subcommand("check",
+                                  "Validate task, camera, mount and sequence files and say what "
+                                  "was understood");
+  verb->add_option("FILES", a->files, "Files to check")->required();
+}
+
+void add_demo(CLI::App& app, std::shared_ptr<DemoArguments> a) {
+  auto* verb = app.add_subcommand(
+      "demo", "The main job: track a recorded sequence, send the commands, fly the helicopter");
+  verb->add_option("--tasks", a->tasks, "Folder of the task files (default tasks)");
+  verb->add_option("--output", a->output, "Run folder to make (default runs/demo)");
+}
+
+}  // namespace
+
+std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
+  CLI::App app{"Kestrel: visual servoing for helicopters and other velocity-controlled vehicles"};
+  app.set_version_flag("--version", std::string("kestrel ") + KESTREL_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough(false);
+  const auto track = std::make_shared<TrackArguments>();
+  const auto servo = std::make_shared<ServoArguments>();
+  const auto simulate = std::make_shared<SimulateArguments>();
+  const auto receive = std::make_shared<ReceiveArguments>();
+  const auto check = std::make_shared<CheckArguments>();
+  const auto demo = std::make_shared<DemoArguments>();
+  add_track(app, track);
+  add_servo(app, servo);
+  add_simulate(app, simulate);
+  add_receive(app, receive);
+  add_check(app, check);
+  add_demo(app, demo);
+  app.footer(
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
+      "complete).\n'kestrel VERB --help' shows a verb's options.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  if (app.got_subcommand("track")) return Arguments(*track);
+  if (app.got_subcommand("servo")) return Arguments(*servo);
+  if (app.got_subcommand("simulate")) return Arguments(*simulate);
+  if (app.got_subcommand("receive")) return Arguments(*receive);
+  if (app.got_subcommand("check")) return Arguments(*check);
+  return Arguments(*demo);
+}
+
+}  // namespace kestrel::app

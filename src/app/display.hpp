@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <opencv2/core/mat.hpp>
+
+#include "kestrel/geometry/pixel.hpp"
+
+namespace kestrel::app {
+
+/// True when there is an X display to open a window on.
+bool has_display();
+
+/// Lets the user draw the template's rectangle in a window: click one corner, then the opposite
+/// one; a right click gives up. Empty when given up. Throws std::runtime_error without a display.
+std::optional<PixelBox> select_rectangle(const cv::Mat& gray, const std::string& title);
+
+/// A window that shows pictures (ViSP's vpDisplayX).
+class Window {
+ public:
+  /// Throws std::runtime_error without a display.
+  Window(int width, int height, const std::string& title);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Shows a BGR picture of the window's size; false once the user has clicked the right button.
+  bool show(const cv::Mat& bgr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kestrel::app
