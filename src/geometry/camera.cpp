@@ -4,79 +4,77 @@
 #include <limits>
 #include <stdexcept>
 
+#include <Eigen/LU>
+
+#include "lens.hpp"
+
 namespace kestrel {
 namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// OpenCV's model: x_d = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + tangential terms.
-Vector2d plumb_bob(const Vector2d& p, const std::array<double, 5>& d) {
-  const auto& [k1, k2, p1, p2, k3] = d;
-  const double x = p.x();
-  const double y = p.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
-          y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+/// A radius (1) on the normalised plane, 0.06 degrees short of 90 degrees off axis.
+constexpr double kFarOut = 1000;
+
+/// Up to which radius (an angle, rad, for Kannala-Brandt) the lens model is monotonic.
+double outward_range(const CameraParameters& p) {
+  const auto& d = p.distortion;
+  switch (p.lens) {
+    case Lens::Pinhole:
+      break;
+    case Lens::VispRadial:
+      return lens::fold({1, 3 * d[0]}, kFarOut);
+    case Lens::PlumbBob:
+      return lens::fold({1, 3 * d[0], 5 * d[1], 7 * d[4]}, kFarOut);
+    case Lens::KannalaBrandt:
+      return lens::fold({1, 3 * d[0], 5 * d[1], 7 * d[2], 9 * d[3]}, M_PI / 2);
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
-Matrix2d plumb_bob_jacobian(const Vector2d& p, const std::array<double, 5>& d) {
-  const auto& [k1, k2, p1, p2, k3] = d;
-  const double x = p.x();
-  const double y = p.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // d radial / d r2 * 2
-  Matrix2d J;
-  J << radial + slope * x * x + 2 * p1 * y + 6 * p2 * x, slope * x * y + 2 * p1 * x + 2 * p2 * y,
-      slope * x * y + 2 * p1 * x + 2 * p2 * y, radial + slope * y * y + 6 * p1 * y + 2 * p2 * x;
-  return J;
-}
-
-/// theta_d = theta (1 + k1 theta^2 + ... + k4 theta^8).
-double fisheye(double theta, const std::array<double, 5>& k) {
-  const double t2 = theta * theta;
-  return theta * (1 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
-}
-
-double fisheye_slope(double theta, const std::array<double, 5>& k) {
-  const double t2 = theta * theta;
-  return 1 + t2 * (3 * k[0] + t2 * (5 * k[1] + t2 * (7 * k[2] + t2 * 9 * k[3])));
+/// The same for ViSP's polynomial from pixels to the normalised plane.
+double inward_range(const CameraParameters& p) {
+  if (p.lens != Lens::VispRadial) return std::numeric_limits<double>::infinity();
+  return lens::fold({1, 3 * p.distortion[1]}, kFarOut);
 }
 
 constexpr int kNewtonSteps = 50;
 constexpr double kNewtonTolerance = 1e-12;
 const Vector2d kNowhere = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-Vector2d undo_plumb_bob(const Vector2d& distorted, const std::array<double, 5>& d) {
+/// Newton's method kept inside the fold, so that it cannot end on a branch beyond it.
+Vector2d undo_plumb_bob(const Vector2d& distorted, const std::array<double, 5>& d, double range) {
   Vector2d p = distorted;
+  if (p.norm() >= range) p *= range / 2 / p.norm();
   for (int i = 0; i < kNewtonSteps; ++i) {
-    const Matrix2d J = plumb_bob_jacobian(p, d);
-    const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
-    if (!(det > 0)) return kNowhere;  // beyond the fold of the lens model
-    const Vector2d e = distorted - plumb_bob(p, d);
+    const Matrix2d J = lens::plumb_bob_jacobian(p, d);
+    const double det = J.determinant();
+    if (!(det > 0)) return kNowhere;
+    const Vector2d e = distorted - lens::plumb_bob(p, d);
     const Vector2d step((J(1, 1) * e.x() - J(0, 1) * e.y()) / det,
                         (J(0, 0) * e.y() - J(1, 0) * e.x()) / det);
-    p += step;
-    if (step.norm() < kNewtonTolerance) return p;
+    const Vector2d next = p + step;
+    const bool inside = next.norm() < range;
+    if (inside && step.norm() < kNewtonTolerance * std::fmax(1, next.norm())) return next;
+    p = inside ? next : Vector2d((p + next * (range / next.norm())) / 2);
   }
   return kNowhere;
 }
 
-Vector2d undo_fisheye(const Vector2d& distorted, const std::array<double, 5>& k) {
+Vector2d undo_fisheye(const Vector2d& distorted, const std::array<double, 5>& k, double range) {
   const double theta_d = distorted.norm();
   if (theta_d == 0) return distorted;
-  double theta = theta_d;
+  double theta = std::fmin(theta_d, range / 2);
   for (int i = 0; i < kNewtonSteps; ++i) {
-    const double slope = fisheye_slope(theta, k);
+    const double slope = lens::fisheye_slope(theta, k);
     if (!(slope > 0)) return kNowhere;
-    const double step = (theta_d - fisheye(theta, k)) / slope;
-    theta += step;
-    if (std::abs(step) < kNewtonTolerance) {
-      if (!(theta > 0 && theta < M_PI / 2)) return kNowhere;
-      return distorted * (std::tan(theta) / theta_d);
+    const double next = theta + (theta_d - lens::fisheye(theta, k)) / slope;
+    const bool inside = next > 0 && next < range;
+    if (inside && std::abs(next - theta) < kNewtonTolerance) {
+      return distorted * (std::tan(next) / theta_d);
     }
+    theta = inside ? next : (theta + (next > 0 ? range : 0)) / 2;
   }
   return kNowhere;
 }
@@ -93,6 +91,8 @@ Camera::Camera(const CameraParameters& parameters) : parameters_(parameters) {
   require(std::isfinite(p.u0) && std::isfinite(p.v0), "u0, v0: the principal point must be finite");
   require(p.width >= 0 && p.height >= 0, "the image size must not be negative");
   for (const double d : p.distortion) require(std::isfinite(d), "distortion: must be finite");
+  outward_range_ = outward_range(p);
+  inward_range_ = inward_range(p);
 }
 
 Eigen::Matrix3d Camera::K() const {
@@ -109,16 +109,48 @@ Pixel Camera::to_pixel(const ImagePoint& point) const {
     case Lens::Pinhole:
       break;
     case Lens::VispRadial:
-      p *= 1 + d[0] * r * r;
+      p = r < outward_range_ ? Vector2d(p * (1 + d[0] * r * r)) : kNowhere;
       break;
     case Lens::PlumbBob:
-      p = plumb_bob(p, d);
+      // The tangential terms bend the edge of the range a little: the determinant has the last
+      // word.
+      p = r < outward_range_ && lens::plumb_bob_jacobian(p, d).determinant() > 0
+              ? lens::plumb_bob(p, d)
+              : kNowhere;
       break;
     case Lens::KannalaBrandt:
-      if (r > 0) p *= fisheye(std::atan(r), d) / r;
+      if (!(std::atan(r) < outward_range_)) p = kNowhere;
+      if (r > 0) p *= lens::fisheye(std::atan(r), d) / r;
       break;
   }
   return {parameters_.px * p.x() + parameters_.u0, parameters_.py * p.y() + parameters_.v0};
+}
+
+Matrix2d Camera::pixel_jacobian(const ImagePoint& point) const {
+  const auto& d = parameters_.distortion;
+  const Vector2d p(point.x, point.y);
+  const double r = p.norm();
+  Matrix2d J = Matrix2d::Identity();
+  switch (parameters_.lens) {
+    case Lens::Pinhole:
+      break;
+    case Lens::VispRadial:
+      J += d[0] * (r * r * Matrix2d::Identity() + 2 * p * p.transpose());
+      break;
+    case Lens::PlumbBob:
+      J = lens::plumb_bob_jacobian(p, d);
+      break;
+    case Lens::KannalaBrandt:
+      if (r > 0) {
+        // Along the radius d theta_d / dr, across it theta_d / r.
+        const double theta = std::atan(r);
+        const double across = lens::fisheye(theta, d) / r;
+        const double along = lens::fisheye_slope(theta, d) / (1 + r * r);
+        J = across * Matrix2d::Identity() + (along - across) / (r * r) * p * p.transpose();
+      }
+      break;
+  }
+  return Vector2d(parameters_.px, parameters_.py).asDiagonal() * J;
 }
 
 ImagePoint Camera::to_image_point(const Pixel& pixel) const {
@@ -129,13 +161,13 @@ ImagePoint Camera::to_image_point(const Pixel& pixel) const {
     case Lens::Pinhole:
       break;
     case Lens::VispRadial:
-      p *= 1 + d[1] * p.squaredNorm();
+      p = p.norm() < inward_range_ ? Vector2d(p * (1 + d[1] * p.squaredNorm())) : kNowhere;
       break;
     case Lens::PlumbBob:
-      p = undo_plumb_bob(p, d);
+      p = undo_plumb_bob(p, d, outward_range_);
       break;
     case Lens::KannalaBrandt:
-      p = undo_fisheye(p, d);
+      p = undo_fisheye(p, d, outward_range_);
       break;
   }
   return {p.x(), p.y()};

@@ -1,6 +1,7 @@
 #include "kestrel/geometry/rotation.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -38,6 +39,7 @@ double rotation_defect(const Eigen::Matrix3d& R) {
 }
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M) {
+  if (!M.allFinite()) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   return svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();

@@ -18,10 +18,11 @@ Displacement exponential(const Vector6d& twist, double duration_s) {
   const double theta = theta_u.norm();
   const Eigen::Matrix3d S = skew(theta_u);
   // (1 - cos)/theta^2 and (theta - sin)/theta^3, by series where the quotients cancel.
-  const bool small = theta < 1e-4;
-  const double a = small ? 0.5 - theta * theta / 24 : (1 - std::cos(theta)) / (theta * theta);
+  const double t2 = theta * theta;
+  const bool small = theta < 1e-2;
+  const double a = small ? 0.5 - t2 / 24 * (1 - t2 / 30) : (1 - std::cos(theta)) / t2;
   const double b =
-      small ? 1.0 / 6 - theta * theta / 120 : (theta - std::sin(theta)) / (theta * theta * theta);
+      small ? 1.0 / 6 - t2 / 120 * (1 - t2 / 42) : (theta - std::sin(theta)) / (t2 * theta);
   const Eigen::Matrix3d left_jacobian = Eigen::Matrix3d::Identity() + a * S + b * S * S;
   return {rotation_from_vector(theta_u), left_jacobian * path};
 }

@@ -27,9 +27,11 @@ std::array<Pixel, 4> template_corners(double width_px, double height_px);
 std::array<Pixel, 4> outline(const Homography& image_from_template, double width_px,
                              double height_px);
 
-/// Least-squares homography of at least four pairs: the eight parameters of eq. (4)-(5) of the
-/// paper by SVD on normalised points (Hartley 1997). Empty for fewer pairs, non-finite points, or
-/// points in a degenerate position (three of four on a line, all at one place).
+/// Homography of at least four pairs: the eight parameters of eq. (4)-(5) of the paper, on
+/// normalised points (Hartley 1997). Four pairs are met exactly, more in the least squares of
+/// eq. (5), by SVD. Empty for fewer pairs, non-finite points, points in a degenerate position in
+/// either image (three of four on a line, all on a line but one, all at one place), or when the
+/// template's pixel (0, 0) goes to infinity.
 std::optional<Homography> fit_homography(const std::vector<PixelPair>& pairs);
 
 /// What makes an outline a possible view of the template.

@@ -37,10 +37,13 @@ double distance(const Pixel& a, const Pixel& b);
 /// Centre of the rectangle's pixels.
 Pixel centre(const PixelBox& box);
 
-/// The part of box inside an image of this size, on whole pixels; width or height 0 when none is.
+/// The whole pixels that box touches inside an image of this size; width or height 0 when there are
+/// none. The empty box at (0, 0) for a box with a number that is not finite: a window nobody can
+/// place holds nothing.
 PixelBox clipped(const PixelBox& box, int image_width, int image_height);
 
-/// Smallest rectangle that holds all points; empty box for no points.
+/// Smallest rectangle that holds all points; the empty box at (0, 0) for no points or when one of
+/// them is not finite.
 PixelBox bounding_box(const std::vector<Pixel>& points);
 
 }  // namespace kestrel

@@ -17,10 +17,11 @@ Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R);
 /// seen from the frame it is measured against.
 Eigen::Matrix3d rotation_from_rpy(double roll, double pitch, double yaw);
 
-/// Largest absolute entry of R^T R - I, or 2 for a reflection: 0 for a rotation matrix.
+/// Largest absolute entry of R^T R - I, at least 2 for a reflection or a
+/// matrix that is not finite: 0 for a rotation matrix.
 double rotation_defect(const Eigen::Matrix3d& R);
 
-/// The rotation nearest to M in the Frobenius norm (SVD, determinant +1).
+/// The rotation nearest to M in the Frobenius norm (SVD, determinant +1); NaN when M is not finite.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M);
 
 /// Angle (rad) wrapped into (-pi, pi].
