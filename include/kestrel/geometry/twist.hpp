@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "kestrel/geometry/frames.hpp"
 #include "kestrel/geometry/transform.hpp"
