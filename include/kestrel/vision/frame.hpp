@@ -20,6 +20,9 @@ struct Frame {
   std::optional<Attitude> attitude;
 };
 
+/// True when the frame carries what every stage after it needs: pixels, 8-bit, one channel.
+bool has_image(const Frame& frame);
+
 /// A camera, a recorded sequence or the simulator.
 class FrameSource {
  public:

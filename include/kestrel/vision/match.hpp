@@ -5,6 +5,9 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "kestrel/geometry/pixel.hpp"
+#include "kestrel/vision/keypoints.hpp"
+
 namespace kestrel {
 
 /// Parameters of the nearest-neighbour search.
@@ -44,5 +47,12 @@ class Matcher {
   std::unique_ptr<Index> index_;
   MatchOptions options_;
 };
+
+/// The matches as pairs of places, in the order given. SIFT describes one place several times (one
+/// keypoint for each dominant orientation, and again at the next scale); counted several times it
+/// would pass for the agreement of independent points. Of matches closer than 1 px to each other in
+/// the template or in the image the most distinctive (smallest ratio) stays.
+std::vector<PixelPair> distinct_pairs(const std::vector<Match>& matches,
+                                      const Keypoints& in_template, const Keypoints& in_image);
 
 }  // namespace kestrel

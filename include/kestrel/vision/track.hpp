@@ -18,6 +18,7 @@ struct TrackOptions {
   MatchOptions match;
   RansacOptions ransac;
   OutlineOptions outline;
+  double max_outline_deviation_px = 3;  // so that an outline 10 px off is a three-sigma event
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
@@ -36,6 +37,7 @@ enum class Miss {
   FewMatches,    // fewer matches than the consensus asks for
   NoConsensus,   // RANSAC ended without consensus
   BadOutline,    // the homography is no possible view of the template
+  Undetermined,  // the inliers leave the outline too uncertain
 };
 
 /// What was seen in one frame.
