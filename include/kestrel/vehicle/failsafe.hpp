@@ -4,7 +4,8 @@
 
 namespace kestrel {
 
-/// What happens to the command while the target is not seen.
+/// What happens to the command while the target is not seen. A camera slower than 1/hold_s frames
+/// per second wants a longer hold_s and hover_after_s.
 struct LossOptions {
   double hold_s = 0.1;         // the last command is held
   double decay_s = 0.4;        // then it decays with this time constant

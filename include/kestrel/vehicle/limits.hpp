@@ -15,16 +15,16 @@ struct CommandLimits {
 
 /// The command scaled by one common factor so that no component exceeds its limit: the direction,
 /// hence the path in the image, is kept (the rule of vpRobot::saturateVelocities). Hover for a
-/// command that is not finite.
+/// command or a limit that is not finite.
 VelocityCommand saturated(const VelocityCommand& command, const VelocityCommand& limit);
 
 /// The point nearest to `wanted` on the segment from `previous` to it that no acceleration limit
-/// forbids within duration_s; `previous` for a duration that is not positive. A `wanted` that is
-/// not finite counts as hover.
+/// forbids within duration_s; `previous` for a duration that is not positive. Hover when anything
+/// is not finite: the step to hover is never forbidden.
 VelocityCommand slewed(const VelocityCommand& previous, const VelocityCommand& wanted,
                        const VelocityCommand& acceleration, double duration_s);
 
-/// Saturated, then slewed: what may be sent.
+/// Saturated, then slewed: what may be sent. Hover when anything is not finite.
 VelocityCommand limited(const VelocityCommand& previous, const VelocityCommand& wanted,
                         const CommandLimits& limits, double duration_s);
 
