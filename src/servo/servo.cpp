@@ -4,18 +4,20 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <Eigen/SVD>
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpVelocityTwistMatrix.h>
 #include <visp3/vs/vpServo.h>
 
+#include <Eigen/SVD>
+
 #include "kestrel/geometry/rotation.hpp"
+
 #include "visp_point.hpp"
 
 namespace kestrel {
 namespace {
 
-/// A mount read from a file is a rotation to this; vpRotationMatrix accepts no more than 1e-6.
+/// The most by which R^T R may miss the identity: what six written digits leave.
 constexpr double kRotationTolerance = 1e-6;
 
 /// eJe, 6 x n: the columns of the body's six velocities that the law may use.
@@ -61,8 +63,9 @@ Eigen::VectorXd from_visp(const vpColVector& v) {
   return Eigen::Map<const Eigen::VectorXd>(v.data, v.getRows());
 }
 
-vpVelocityTwistMatrix camera_from_body_twist(const Mount& body_from_camera) {
-  const Transform<frame::Camera, frame::Body> camera_from_body = body_from_camera.inverse();
+/// cVb of the pose cMb of the body in the camera.
+vpVelocityTwistMatrix visp_twist_matrix(
+    const Transform<frame::Camera, frame::Body>& camera_from_body) {
   vpHomogeneousMatrix cMb;
   for (unsigned i = 0; i < 3; ++i) {
     for (unsigned j = 0; j < 3; ++j) cMb[i][j] = camera_from_body.rotation(i, j);
@@ -72,10 +75,10 @@ vpVelocityTwistMatrix camera_from_body_twist(const Mount& body_from_camera) {
 }
 
 /// vpServo keeps pointers to its features and wants an explicit end; both live and end with this.
-class Task {
+class VispTask {
  public:
-  Task(const std::vector<Feature>& measured, const std::vector<Feature>& desired,
-       const ServoOptions& options) {
+  VispTask(const std::vector<Feature>& measured, const std::vector<Feature>& desired,
+           const ServoOptions& options) {
     task_.setServo(vpServo::EYEINHAND_L_cVe_eJe);
     task_.setInteractionMatrixType(visp_type(options.interaction), vpServo::PSEUDO_INVERSE);
     task_.setLambda(options.gain_per_s);
@@ -87,9 +90,9 @@ class Task {
       task_.addFeature(measured_.back(), desired_.back());
     }
   }
-  ~Task() { task_.kill(); }
-  Task(const Task&) = delete;
-  Task& operator=(const Task&) = delete;
+  ~VispTask() { task_.kill(); }
+  VispTask(const VispTask&) = delete;
+  VispTask& operator=(const VispTask&) = delete;
 
   vpServo& operator*() { return task_; }
 
@@ -109,11 +112,11 @@ double condition_of(const Eigen::MatrixXd& J) {
 std::optional<Servo> solve(const std::vector<Feature>& measured,
                            const std::vector<Feature>& desired, const Mount& body_from_camera,
                            const ServoOptions& options) {
+  const Transform<frame::Camera, frame::Body> camera_from_body = body_from_camera.inverse();
   const Eigen::MatrixXd eJe = body_jacobian(options.freedom);
-  const vpVelocityTwistMatrix cVb = camera_from_body_twist(body_from_camera);
   // A new task per call: nothing is cached, above all not L*, which vpServo computes once only.
-  Task task(measured, desired, options);
-  (*task).set_cVe(cVb);
+  VispTask task(measured, desired, options);
+  (*task).set_cVe(visp_twist_matrix(camera_from_body));
   (*task).set_eJe(to_visp(eJe));
   const Eigen::VectorXd u = from_visp((*task).computeControlLaw());
   const Eigen::MatrixXd J = from_visp((*task).getTaskJacobian());
@@ -122,7 +125,7 @@ std::optional<Servo> solve(const std::vector<Feature>& measured,
   answer.condition = condition_of(J);
   if (!(answer.condition <= kLargestCondition)) return std::nullopt;
   answer.error = from_visp((*task).getError());
-  answer.twist = CameraTwist::from_vector(from_visp(static_cast<const vpMatrix&>(vpMatrix(cVb))) * (eJe * u));
+  answer.twist = camera_from_body * BodyTwist::from_vector(eJe * u);
   return answer;
 }
 
@@ -142,7 +145,7 @@ std::optional<Servo> servo(const std::vector<Feature>& measured,
   if (!are_usable(measured) || !are_usable(desired)) return std::nullopt;
   if (!std::isfinite(options.gain_per_s)) return std::nullopt;
   if (!(rotation_defect(body_from_camera.rotation) <= kRotationTolerance)) return std::nullopt;
-  if (!body_from_camera.translation.allFinite()) return std::nullopt;
+  if (!(body_from_camera.translation.array().abs() <= kLargest).all()) return std::nullopt;
   try {
     return solve(measured, desired, body_from_camera, options);
   } catch (const vpException&) {

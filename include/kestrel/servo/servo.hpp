@@ -38,9 +38,10 @@ struct ServoOptions {
 };
 
 /// Above this condition of the task's Jacobian the law has no answer. Its largest singular value
-/// being about 3, a pixel of noise (1e-3 of the focal length or more) then answers with more than
-/// 3 m/s or rad/s per unit of gain: nothing of the answer is left in the noise. A helicopter with
-/// a forward camera is at 119 at 3.75 widths of the target, 592 at 5 widths, 9400 at 20.
+/// being 2 or more, a pixel of noise (1e-3 or more on the normalised plane) may then answer with
+/// 5 m/s or rad/s per unit of gain: nothing is left of the answer. A forward camera with four
+/// freedoms, 5 m from a target of 1 m, is at 592; it gets there at 13 m. Mean and Desired keep the
+/// better condition of the goal.
 inline constexpr double kLargestCondition = 1e4;
 
 /// What the law answers.
