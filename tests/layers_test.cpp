@@ -33,8 +33,9 @@ const std::map<std::string, Names> kMayInclude = {
 /// An include that starts like this -> layers or files (below src/ or include/kestrel/) that may
 /// have it.
 const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
-    {"visp3/", {"servo", "io/camera_file", "app/display"}},
-    {"yaml-cpp/", {"io/yaml_section"}},
+    {"visp3/", {"servo", "app/display"}},
+    {"yaml-cpp/", {"io/yaml_tree"}},
+    {"pugixml.hpp", {"io/xml_file"}},
     {"CLI/", {"app"}},
     {"sys/socket.h", {"link"}},
     {"netinet/", {"link"}},

@@ -1,0 +1,200 @@
+#include "kestrel/io/yaml_section.hpp"
+
+#include <set>
+
+namespace kestrel {
+namespace {
+
+/// One map of the file that was opened, and what was asked of it.
+struct Record {
+  std::string name;  // dotted, empty for the root
+  const YamlNode* node;
+  int line = 0;
+  std::set<std::string> known;
+  std::set<std::string> read;
+
+  std::string full_key(const std::string& key) const {
+    return name.empty() || key.empty() ? name + key : name + "." + key;
+  }
+};
+
+}  // namespace
+
+struct Section::Document {
+  std::filesystem::path file;
+  YamlNode root;
+  std::vector<Record> records;
+
+  [[noreturn]] void fail(int line, const std::string& key, const std::string& what) const {
+    throw FileError(file, line, key, what);
+  }
+};
+
+struct Section::Value {
+  const YamlNode& node;
+  int line;
+  std::string key;  // dotted
+  const Document& document;
+
+  [[noreturn]] void fail(const std::string& what) const { document.fail(line, key, what); }
+
+  const std::string& scalar(const std::string& wanted) const {
+    if (node.kind == YamlNode::Kind::Empty) fail("has no value; give " + wanted);
+    if (node.kind != YamlNode::Kind::Scalar) {
+      fail(std::string("is ") + describe(node.kind) + "; give " + wanted);
+    }
+    return node.scalar;
+  }
+
+  const std::string& unquoted(const std::string& wanted) const {
+    const std::string& text = scalar(wanted);
+    if (!node.is_plain) fail("'" + text + "' is in quotes, so a text; remove the quotes");
+    return text;
+  }
+
+  /// What parse_number or parse_integer makes of it.
+  template <class Number>
+  Number parsed(Number (*parse)(std::string_view)) const {
+    try {
+      return parse(unquoted("a number"));
+    } catch (const std::invalid_argument& error) {
+      fail(error.what());
+    }
+  }
+
+  /// Numbers of a list, the lists in it (rows of a matrix) in order.
+  void append_numbers(std::vector<double>& numbers, int depth) const {
+    if (node.kind != YamlNode::Kind::List || depth > 1) {
+      fail(std::string("is ") + describe(node.kind) + "; give a list of numbers");
+    }
+    for (const YamlNode& item : node.list) {
+      const Value element{item, item.line, key, document};
+      if (item.kind == YamlNode::Kind::List) {
+        element.append_numbers(numbers, depth + 1);
+      } else {
+        numbers.push_back(element.parsed(parse_number));
+      }
+    }
+  }
+};
+
+Section::Section(std::shared_ptr<Document> document, std::size_t record)
+    : document_(std::move(document)), record_(record) {}
+
+Section Section::load(const std::filesystem::path& file) {
+  const auto document = std::make_shared<Document>();
+  document->file = file;
+  document->root = parse_yaml(file, read_text(file));
+  document->records.push_back({"", &document->root, 1, {}, {}});
+  return {document, 0};
+}
+
+Section::Value Section::value(const std::string& key) const {
+  Record& record = document_->records[record_];
+  record.known.insert(key);
+  record.read.insert(key);
+  if (const auto* entry = record.node->find(key)) {
+    return {entry->value, entry->line, record.full_key(key), *document_};
+  }
+  std::vector<std::string> unread;
+  for (const auto& entry : record.node->entries) {
+    if (record.read.count(entry.key) == 0) unread.push_back(entry.key);
+  }
+  const std::string near = nearest_word(key, unread);
+  document_->fail(
+      record.line, record.full_key(key),
+      near.empty() ? "is missing; add it" : "is missing; did you mean it by " + near + "?");
+}
+
+bool Section::has(const std::string& key) const {
+  Record& record = document_->records[record_];
+  record.known.insert(key);
+  return record.node->find(key) != nullptr;
+}
+
+int Section::whole(const std::string& key, int otherwise) const {
+  const std::int64_t wide = integer(key, otherwise);
+  if (wide != int(wide)) fail(key, std::to_string(wide) + " is too large; write a smaller number");
+  return int(wide);
+}
+
+std::string Section::text(const std::string& key) const {
+  const Value v = value(key);
+  const std::string& text = v.scalar("a text");
+  if (text.empty()) v.fail("is an empty text; give one");
+  return text;
+}
+
+bool Section::flag(const std::string& key, bool otherwise) const {
+  if (!has(key)) return otherwise;
+  const Value v = value(key);
+  const std::string& word = v.unquoted("true or false");
+  if (word != "true" && word != "false") v.fail("is '" + word + "'; write true or false");
+  return word == "true";
+}
+
+std::vector<double> Section::numbers(const std::string& key) const {
+  std::vector<double> list;
+  value(key).append_numbers(list, 0);
+  return list;
+}
+
+std::vector<double> Section::numbers(const std::string& key, std::size_t count) const {
+  std::vector<double> list = numbers(key);
+  if (list.size() != count) {
+    fail(key, "has " + std::to_string(list.size()) + " numbers; give " + std::to_string(count));
+  }
+  return list;
+}
+
+std::filesystem::path Section::path(const std::string& key) const {
+  return (document_->file.parent_path() / text(key)).lexically_normal();
+}
+
+Section Section::child(const std::string& key) const {
+  const Value v = value(key);
+  for (std::size_t i = 0; i < document_->records.size(); ++i) {
+    if (document_->records[i].name == v.key) return {document_, i};
+  }
+  if (v.node.kind != YamlNode::Kind::Map) {
+    v.fail(std::string("is ") + describe(v.node.kind) + "; write keys below it");
+  }
+  document_->records.push_back({v.key, &v.node, v.line, {}, {}});
+  return {document_, document_->records.size() - 1};
+}
+
+std::size_t Section::one_of(const std::string& key, const std::vector<std::string>& words) const {
+  const Value v = value(key);
+  const std::string& said = v.scalar("one of the words");
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == said) return i;
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  }
+  v.fail("is '" + said + "'; write " + list);
+}
+
+void Section::fail(const std::string& key, const std::string& what) const {
+  const Record& record = document_->records[record_];
+  const auto* entry = record.node->find(key);
+  document_->fail(entry != nullptr ? entry->line : record.line, record.full_key(key), what);
+}
+
+void Section::done() const {
+  for (const Record& record : document_->records) {
+    const std::vector<std::string> known(record.known.begin(), record.known.end());
+    for (const auto& entry : record.node->entries) {
+      if (record.read.count(entry.key) != 0) continue;
+      std::string what = "is no key here; remove it";
+      const std::string near = nearest_word(entry.key, known);
+      if (!near.empty()) what = "is no key here; did you mean " + near + "?";
+      if (record.known.count(entry.key) != 0)
+        what = "has no effect beside the other keys; remove it";
+      document_->fail(entry.line, record.full_key(entry.key), what);
+    }
+  }
+}
+
+const std::filesystem::path& Section::file() const { return document_->file; }
+
+}  // namespace kestrel
