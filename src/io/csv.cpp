@@ -40,7 +40,7 @@ std::string number(double value) {
   return {text.data(), end};
 }
 
-std::optional<double> parse_number(std::string_view text) {
+std::optional<double> csv_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;

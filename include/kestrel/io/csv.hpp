@@ -14,7 +14,7 @@ namespace kestrel {
 std::string number(double value);
 
 /// The double that all of text spells (number's inverse); empty for anything else.
-std::optional<double> parse_number(std::string_view text);
+std::optional<double> csv_number(std::string_view text);
 
 /// The fields of one line of CSV without quotes, as number and plain words need none.
 std::vector<std::string_view> csv_fields(std::string_view line);
