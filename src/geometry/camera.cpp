@@ -43,38 +43,43 @@ constexpr int kNewtonSteps = 50;
 constexpr double kNewtonTolerance = 1e-12;
 const Vector2d kNowhere = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// Newton's method kept inside the fold, so that it cannot end on a branch beyond it.
+/// Newton's method, each step shortened until it stays inside the fold and nears the answer: so it
+/// can neither end on a branch beyond nor be thrown about by the small slope near the fold.
 Vector2d undo_plumb_bob(const Vector2d& distorted, const std::array<double, 5>& d, double range) {
   Vector2d p = distorted;
-  if (p.norm() >= range) p *= range / 2 / p.norm();
+  if (p.norm() > range / 2) p *= range / 2 / p.norm();
   for (int i = 0; i < kNewtonSteps; ++i) {
+    const Vector2d e = distorted - lens::plumb_bob(p, d);
     const Matrix2d J = lens::plumb_bob_jacobian(p, d);
     const double det = J.determinant();
     if (!(det > 0)) return kNowhere;
-    const Vector2d e = distorted - lens::plumb_bob(p, d);
-    const Vector2d step((J(1, 1) * e.x() - J(0, 1) * e.y()) / det,
-                        (J(0, 0) * e.y() - J(1, 0) * e.x()) / det);
-    const Vector2d next = p + step;
-    const bool inside = next.norm() < range;
-    if (inside && step.norm() < kNewtonTolerance * std::fmax(1, next.norm())) return next;
-    p = inside ? next : Vector2d((p + next * (range / next.norm())) / 2);
+    Vector2d step((J(1, 1) * e.x() - J(0, 1) * e.y()) / det,
+                  (J(0, 0) * e.y() - J(1, 0) * e.x()) / det);
+    if (step.norm() < kNewtonTolerance * std::fmax(1, p.norm())) return p + step;
+    const auto nears = [&](const Vector2d& next) {
+      return next.norm() < range && (distorted - lens::plumb_bob(next, d)).norm() < e.norm();
+    };
+    for (int halvings = 0; halvings < 20 && !nears(p + step); ++halvings) step /= 2;
+    p += step;
   }
   return kNowhere;
 }
 
+/// Newton's method between two bounds that close in on the answer.
 Vector2d undo_fisheye(const Vector2d& distorted, const std::array<double, 5>& k, double range) {
   const double theta_d = distorted.norm();
   if (theta_d == 0) return distorted;
+  if (!(theta_d < lens::fisheye(range, k))) return kNowhere;
+  double low = 0;
+  double high = range;
   double theta = std::fmin(theta_d, range / 2);
   for (int i = 0; i < kNewtonSteps; ++i) {
-    const double slope = lens::fisheye_slope(theta, k);
-    if (!(slope > 0)) return kNowhere;
-    const double next = theta + (theta_d - lens::fisheye(theta, k)) / slope;
-    const bool inside = next > 0 && next < range;
-    if (inside && std::abs(next - theta) < kNewtonTolerance) {
-      return distorted * (std::tan(next) / theta_d);
-    }
-    theta = inside ? next : (theta + (next > 0 ? range : 0)) / 2;
+    const double e = theta_d - lens::fisheye(theta, k);
+    (e > 0 ? low : high) = theta;
+    double next = theta + e / lens::fisheye_slope(theta, k);
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    if (std::abs(next - theta) < kNewtonTolerance) return distorted * (std::tan(next) / theta_d);
+    theta = next;
   }
   return kNowhere;
 }

@@ -18,6 +18,7 @@ PixelBox clipped(const PixelBox& box, int image_width, int image_height) {
       !std::isfinite(box.v)) {
     return {};
   }
+  if (!(box.width > 0 && box.height > 0)) return {};
   const double image_end_u = std::max(image_width, 0);
   const double image_end_v = std::max(image_height, 0);
   const double left = std::clamp(std::floor(box.u), 0.0, image_end_u);

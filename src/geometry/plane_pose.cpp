@@ -16,12 +16,13 @@ std::optional<View> view_of(const Homography& image_from_template, const PlaneSi
                             const Camera& camera) {
   const auto pixels = outline(image_from_template, size.width_px, size.height_px);
   View view{corners_in_target(size), {}, {}};
+  const Eigen::Vector3d& corner = view.corners[2];
+  if (!(corner.allFinite() && corner.x() > 0 && corner.y() > 0)) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
     const ImagePoint p = camera.to_image_point(pixels[i]);
     view.seen[i] = {p.x, p.y};
     view.px_per_unit[i] = camera.pixel_jacobian(p);
     if (!view.seen[i].allFinite() || !view.px_per_unit[i].allFinite()) return std::nullopt;
-    if (!view.corners[i].allFinite()) return std::nullopt;
   }
   return view;
 }

@@ -38,8 +38,8 @@ double distance(const Pixel& a, const Pixel& b);
 Pixel centre(const PixelBox& box);
 
 /// The whole pixels that box touches inside an image of this size; width or height 0 when there are
-/// none. The empty box at (0, 0) for a box with a number that is not finite: a window nobody can
-/// place holds nothing.
+/// none. The empty box at (0, 0) for an empty box and for one with a number that is not finite: a
+/// window nobody can place holds nothing.
 PixelBox clipped(const PixelBox& box, int image_width, int image_height);
 
 /// Smallest rectangle that holds all points; the empty box at (0, 0) for no points or when one of
