@@ -224,14 +224,16 @@ TEST(Homography, NoFitFromTooFewOrNonFinitePoints) {
   EXPECT_FALSE(fit_homography({}));
   EXPECT_FALSE(fit_homography({good.begin(), good.begin() + 3}));
   for (const std::size_t count : {4, 6}) {
-    for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e308}) {
-      std::vector<PixelPair> pairs(good.begin(), good.begin() + std::ptrdiff_t(count));
-      pairs[2].in_image.v = bad;
-      if (bad != 1e308) EXPECT_FALSE(fit_homography(pairs));
-      pairs[3].in_image.v = -bad;
-      pairs[1].in_image.v = bad;
-      EXPECT_FALSE(fit_homography(pairs)) << bad;
+    for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
+      for (const auto side : {&PixelPair::in_template, &PixelPair::in_image}) {
+        std::vector<PixelPair> pairs(good.begin(), good.begin() + std::ptrdiff_t(count));
+        (pairs[2].*side).v = bad;
+        EXPECT_FALSE(fit_homography(pairs));
+      }
     }
+    std::vector<PixelPair> pairs(good.begin(), good.begin() + std::ptrdiff_t(count));
+    pairs[0].in_image.u = pairs[1].in_image.u = 1.7e308;  // their sum overflows
+    EXPECT_FALSE(fit_homography(pairs));
   }
 }
 
