@@ -113,10 +113,12 @@ void draw_words(cv::Mat& picture, Stream& random) {
   const char* const words[] = {"HOVER", "GAZE", "WIND", "FIELD", "NORTH", "0.5 m/s", "H = K[R|t]"};
   const double h = picture.rows;
   const double w = picture.cols;
+  double y = 0.11;  // of the height; the middle is left to the title
   for (const char* word : words) {
-    const double size = h * random.uniform(0.025, 0.06);
-    const cv::Point at(int(w * random.uniform(0.03, 0.75)), int(h * random.uniform(0.1, 0.95)));
+    const double size = h * random.uniform(0.03, 0.06);
+    const cv::Point at(int(w * random.uniform(0.03, 0.7)), int(h * y));
     draw_word(picture, word, at, size, random.integer(0, 1) ? 235 : 20);
+    y += y < 0.25 || y > 0.6 ? 0.075 : 0.45;
   }
   draw_word(picture, "KESTREL", {int(w * 0.07), int(h * 0.56)}, std::min(h * 0.17, w * 0.12), 245);
 }

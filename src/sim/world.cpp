@@ -84,11 +84,9 @@ void World::fly_one_period() {
 }
 
 void World::send(const VelocityCommand& command, double /*stamp_s*/) noexcept {
-  if (!command.vector().allFinite()) {
-    ++failures_;
-    return;
-  }
-  command_ = command;
+  const bool finite = command.vector().allFinite();
+  if (!finite) ++failures_;
+  command_ = finite ? command : VelocityCommand::hover();
   command_stamp_s_ = stamp_s(std::max<std::int64_t>(next_frame_ - 1, 0));
 }
 

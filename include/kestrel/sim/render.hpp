@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,9 +25,9 @@ struct RenderOptions {
 
 /// A camera looking at a scene. Each pixel is the mean light over its square, [u - 0.5, u + 0.5] x
 /// [v - 0.5, v + 0.5]: a ray is cast through the lens at its centre and the pixel's footprint on
-/// the first plane it meets is integrated over a pyramid of the texture (as many taps as the
-/// footprint is long, each from the level whose texels they just cover); edges blend by the share
-/// of the pixel they cover. The same bytes at any number of threads.
+/// the first plane it meets is integrated over a pyramid of the texture (from the level on which
+/// the footprint is one bilinear tap wide, with as many taps as it is then long); edges blend by
+/// the share of the pixel they cover. The same bytes at any number of threads.
 class Renderer {
  public:
   /// Throws std::invalid_argument for a scene that does not check or a camera without image size.
@@ -38,21 +39,19 @@ class Renderer {
                const RenderOptions& options = {}) const;
 
  private:
-  struct Plane {
-    std::vector<cv::Mat> levels;       // of the texture, each half as large as the one before
-    Eigen::Matrix3d texture_from_xy1;  // texels, outer edges, of a point (x, y, 1) of the plane, m
-    Transform<frame::World, frame::Target> world_from_target;
-  };
+  struct Plane;
   struct Seen;
-  struct Shade;
-  static Shade shade(const Seen& plane, const Eigen::Vector2f* ray, int row_step);
+  struct Shades;
+  static Shades shades(const Seen& plane, const float* ray_x, const float* ray_y, int stride);
   std::vector<Seen> seen(const Transform<frame::World, frame::Camera>& world_from_camera) const;
-  void render_row(const std::vector<Seen>& planes, int v, float* row) const;
+  std::vector<float> light(const std::vector<Seen>& planes, int row) const;
 
   cv::Size size_;
-  std::vector<Eigen::Vector2f> rays_;  // (size_ + 1) normalised points, row by row
-  std::vector<Plane> planes_;
-  float background_ = 0;
+  int stride_;                // of the rays: the width and one more, in whole runs
+  std::vector<float> ray_x_;  // normalised points of the pixels and one row more
+  std::vector<float> ray_y_;
+  std::shared_ptr<const std::vector<Plane>> planes_;  // never changed: copies may share them
+  float background_;
   std::vector<float> normal_quantiles_;
 };
 

@@ -60,7 +60,7 @@ class World final : public FrameSource, public CommandSink {
   std::optional<std::int64_t> frame_count() const override { return options_.frames; }
 
   /// Taken as arriving at the instant of the last frame, whatever stamp_s says. A command that is
-  /// not finite is refused and counted; what was sent before stays in force until it times out.
+  /// not finite is counted as a failure and obeyed as hover.
   void send(const VelocityCommand& command, double stamp_s) noexcept override;
   long failures() const override { return failures_; }
 
