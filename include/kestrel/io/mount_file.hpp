@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "kestrel/geometry/transform.hpp"
+#include "kestrel/io/yaml_section.hpp"
+
+namespace kestrel {
+
+/// The pose that a section gives in one of three ways:
+/// `translation_m: [x, y, z]` with `rpy_deg: [roll, pitch, yaw]`, R = Rz(yaw) Ry(pitch) Rx(roll);
+/// `translation_m` with `rotation`, 9 numbers row by row or 3 rows of 3;
+/// ViSP's pose (vpPoseVector's YAML): `rows: 6`, `cols: 1`, `data: [tx, ty, tz, tux, tuy, tuz]`.
+/// The rotation's columns are the axes of From seen in To. A matrix within 1e-3 of a rotation is
+/// replaced by the nearest one; anything else throws FileError that says how far off it is.
+template <class To, class From>
+Transform<To, From> read_pose(const Section& section);
+
+/// How the camera is mounted (body_from_camera): read_pose, or `file:`, another file with one.
+/// Throws FileError also for a camera more than 20 m from the helicopter's reference point.
+Mount read_mount(const Section& section);
+
+/// The same from a file of its own.
+Mount load_mount(const std::filesystem::path& file);
+
+/// A mount in plain words: "the camera looks forward; image right is the helicopter's right; 0.30 m
+/// ahead of, 0.10 m below the reference point".
+std::string describe(const Mount& body_from_camera);
+
+}  // namespace kestrel

@@ -1,0 +1,163 @@
+#include "kestrel/io/sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include <opencv2/videoio.hpp>
+
+#include "kestrel/io/gray_image.hpp"
+#include "kestrel/io/image_files.hpp"
+
+namespace kestrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kUsualRate_hz = 30;
+
+[[noreturn]] void fail(const SequenceOptions& options, const std::string& what) {
+  const std::string package =
+      options.package.empty() ? "" : "; `apt-get install " + options.package + "` brings them";
+  throw std::runtime_error(options.input + ": " + what + package);
+}
+
+/// Images in the order of their numbers.
+class ImageSequence : public FrameSource {
+ public:
+  ImageSequence(NumberedFiles files, double rate_hz) : files_(std::move(files)), rate_hz_(rate_hz) {
+    next_ = files_.begin();
+    expected_ = next_->first;
+  }
+
+  std::optional<Frame> next() override {
+    while (next_ != files_.end()) {
+      const auto [index, file] = *next_++;
+      for (; expected_ < index; ++expected_) {
+        skipped_.push_back("frame " + std::to_string(expected_) + ": there is no such file");
+      }
+      ++expected_;
+      try {
+        return Frame{index, double(index) / rate_hz_, load_gray(file), std::nullopt};
+      } catch (const FileError& error) {
+        skipped_.push_back("frame " + std::to_string(index) + ": " + error.what());
+      }
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<std::string>& skipped() const override { return skipped_; }
+  std::optional<std::int64_t> frame_count() const override { return std::int64_t(files_.size()); }
+
+ private:
+  NumberedFiles files_;
+  NumberedFiles::const_iterator next_;
+  std::int64_t expected_ = 0;
+  double rate_hz_;
+  std::vector<std::string> skipped_;
+};
+
+/// The frames of a video file.
+class VideoSequence : public FrameSource {
+ public:
+  explicit VideoSequence(const SequenceOptions& options)
+      : capture_(options.input, cv::CAP_FFMPEG), last_(options.last_frame) {
+    if (!capture_.isOpened()) fail(options, "is no video that FFmpeg can read; re-encode it");
+    const double own_rate = capture_.get(cv::CAP_PROP_FPS);
+    const bool sane = std::isfinite(own_rate) && own_rate > 0 && own_rate < 10000;
+    rate_hz_ = options.rate_hz.value_or(sane ? own_rate : kUsualRate_hz);
+    promised_ = std::int64_t(capture_.get(cv::CAP_PROP_FRAME_COUNT));
+    for (; index_ < options.first_frame; ++index_) {
+      if (!capture_.grab()) {
+        fail(options, "has only " + std::to_string(index_) + " frames; lower first_frame");
+      }
+    }
+    first_ = index_;
+    if (!read()) fail(options, "holds no frame that can be decoded; re-encode it");
+  }
+
+  std::optional<Frame> next() override {
+    if (ahead_.empty()) return std::nullopt;
+    const std::int64_t index = index_++;
+    Frame frame{index, double(index) / rate_hz_, as_gray(ahead_), std::nullopt};
+    if (!read()) ahead_ = cv::Mat();
+    return frame;
+  }
+
+  const std::vector<std::string>& skipped() const override { return skipped_; }
+
+  std::optional<std::int64_t> frame_count() const override {
+    if (promised_ <= 0) return std::nullopt;
+    const std::int64_t last = std::min(last_.value_or(promised_ - 1), promised_ - 1);
+    return std::max<std::int64_t>(last - first_ + 1, 0);
+  }
+
+ private:
+  /// Decodes frame index_ into ahead_; false at the end.
+  bool read() {
+    if (last_ && index_ > *last_) return false;
+    if (capture_.read(ahead_) && !as_gray(ahead_).empty()) return true;
+    const std::int64_t wanted = last_ ? std::min(*last_ + 1, promised_) : promised_;
+    if (index_ < wanted) {
+      skipped_.push_back("frames " + std::to_string(index_) + " to " + std::to_string(wanted - 1) +
+                         ": the video ends early (cut short or damaged)");
+    }
+    return false;
+  }
+
+  cv::VideoCapture capture_;
+  cv::Mat ahead_;
+  std::optional<std::int64_t> last_;
+  std::int64_t first_ = 0;
+  std::int64_t index_ = 0;
+  std::int64_t promised_ = 0;
+  double rate_hz_ = kUsualRate_hz;
+  std::vector<std::string> skipped_;
+};
+
+/// The images of a pattern or folder by their index, within the range asked for.
+NumberedFiles files_in_range(const SequenceOptions& options, bool pattern) {
+  const NumberedFiles all =
+      pattern ? files_of_pattern(options.input) : files_of_folder(options.input);
+  if (all.empty()) {
+    fail(options, pattern ? "no file has a name like this; correct the pattern"
+                          : "the folder holds no image; name another");
+  }
+  const std::int64_t zero = pattern ? options.first_number.value_or(all.begin()->first) : 0;
+  const std::int64_t last = options.last_frame.value_or(all.rbegin()->first - zero);
+  NumberedFiles wanted;
+  for (const auto& [number, file] : all) {
+    const std::int64_t index = number - zero;
+    if (index >= options.first_frame && index <= last) wanted.emplace(index, file);
+  }
+  if (wanted.empty()) {
+    fail(options, "has images " + std::to_string(all.begin()->first - zero) + " to " +
+                      std::to_string(all.rbegin()->first - zero) +
+                      ", none in the range asked for; change first_frame or last_frame");
+  }
+  return wanted;
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_sequence(const SequenceOptions& options) {
+  if (options.input.empty()) fail(options, "the sequence has no name; give a pattern or a file");
+  if (options.rate_hz && !(std::isfinite(*options.rate_hz) && *options.rate_hz > 0)) {
+    fail(options, "rate_hz must be positive");
+  }
+  if (options.first_frame < 0 || options.last_frame.value_or(0) < 0 ||
+      options.last_frame.value_or(options.first_frame) < options.first_frame) {
+    fail(options, "first_frame and last_frame must be 0 or more, in this order");
+  }
+  const bool pattern = options.input.find('%') != std::string::npos;
+  if (!pattern && !fs::exists(options.input))
+    fail(options, "there is no such file or folder; correct the path");
+  if (!pattern && fs::is_regular_file(options.input) && !is_image_name(options.input)) {
+    return std::make_unique<VideoSequence>(options);
+  }
+  return std::make_unique<ImageSequence>(files_in_range(options, pattern),
+                                         options.rate_hz.value_or(kUsualRate_hz));
+}
+
+}  // namespace kestrel
