@@ -18,6 +18,15 @@ void require(bool holds, const char* message) {
   if (!holds) throw std::invalid_argument(message);
 }
 
+/// No descriptor: FLANN's search of numbers whose squares overflow, or of none, ends in an
+/// assertion.
+constexpr double kLargestNumber = 1e6;
+
+bool are_descriptors(const cv::Mat& rows) {
+  return rows.type() == CV_32FC1 && rows.cols == kDescriptorLength &&
+         cv::checkRange(rows, true, nullptr, -kLargestNumber, kLargestNumber);
+}
+
 /// FLANN draws from cv::theRNG(), the generator of the calling thread: seeded here while a tree is
 /// built, and put back afterwards so that nobody notices.
 class SeededOpencv {
@@ -53,7 +62,6 @@ std::vector<std::size_t> by_ratio(const std::vector<Match>& matches) {
 
 void MatchOptions::check() const {
   require(ratio > 0 && ratio < 1, "match.ratio: must be between 0 and 1");
-  require(trees >= 1 && trees <= 16, "match.trees: must be 1 to 16");
   require(checks >= 2, "match.checks: must be at least 2");
 }
 
@@ -65,12 +73,11 @@ struct Matcher::Index {
 Matcher::Matcher(const cv::Mat& descriptors, const MatchOptions& options)
     : index_(std::make_unique<Index>()), options_(options) {
   options.check();
-  require(descriptors.type() == CV_32FC1 && descriptors.cols == kDescriptorLength &&
-              descriptors.rows >= 2,
-          "descriptors: must be at least two rows of 128 floats");
+  require(are_descriptors(descriptors) && descriptors.rows >= 2,
+          "descriptors: must be at least two rows of 128 finite floats");
   index_->rows = descriptors.clone();
   const SeededOpencv seeded(options.seed);
-  index_->tree.build(index_->rows, cv::flann::KDTreeIndexParams(options.trees));
+  index_->tree.build(index_->rows, cv::flann::KDTreeIndexParams(1));
 }
 
 Matcher::~Matcher() = default;
@@ -79,8 +86,7 @@ Matcher& Matcher::operator=(Matcher&&) noexcept = default;
 
 std::vector<Match> Matcher::match(const cv::Mat& descriptors) const {
   if (descriptors.empty()) return {};
-  require(descriptors.type() == CV_32FC1 && descriptors.cols == kDescriptorLength,
-          "descriptors: must be rows of 128 floats");
+  require(are_descriptors(descriptors), "descriptors: must be rows of 128 finite floats");
   cv::Mat nearest;
   cv::Mat squared;
   index_->tree.knnSearch(descriptors, nearest, squared, 2,

@@ -57,6 +57,7 @@ bool is_inside(const Pixel& p, const PixelBox& box) {
 /// Keypoints inside the box, in template coordinates, described as the first search window will
 /// show them: a descriptor near the rectangle's edge reaches over it.
 Keypoints learned(const cv::Mat& gray, const PixelBox& box, const SiftOptions& sift) {
+  sift.check();
   const Keypoints seen = detect_keypoints(gray, first_window(box, gray.cols, gray.rows), sift);
   Keypoints kept;
   for (std::size_t i = 0; i < seen.at.size(); ++i) {

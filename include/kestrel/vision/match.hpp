@@ -13,9 +13,8 @@ namespace kestrel {
 /// Parameters of the nearest-neighbour search.
 struct MatchOptions {
   double ratio = 0.8;  // nearest over second nearest distance, Lowe's test
-  int trees = 4;       // randomised kd-trees
-  int checks = 64;     // leaves visited best bin first, the bound on the time of one search
-  int seed = 1;        // of the randomised trees
+  int checks = 200;    // leaves visited best bin first (Lowe 2004, section 7.2): bounds the time
+  int seed = 1;        // of the tree's choice among the dimensions of largest variance
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
@@ -29,9 +28,14 @@ struct Match {
 };
 
 /// kd-tree over the template's descriptors, built once; searched best bin first (Beis & Lowe 1997).
+///
+/// One tree, not a forest: FLANN of OpenCV 4.6 keeps one queue of branches per thread, as long as
+/// the longest tree searched there before, and drops branches that find it full. One tree of n
+/// leaves has n - 1 branches and always fits; the branches of several do not, and what is found
+/// depends on what the thread searched earlier.
 class Matcher {
  public:
-  /// descriptors: n x 128, CV_32F, n >= 2 (std::invalid_argument otherwise).
+  /// descriptors: n x 128, CV_32F, finite, n >= 2 (std::invalid_argument otherwise).
   Matcher(const cv::Mat& descriptors, const MatchOptions& options);
   ~Matcher();
   Matcher(Matcher&&) noexcept;
@@ -39,7 +43,8 @@ class Matcher {
 
   /// Matches of the image's descriptors that pass the ratio test, one to one: of several image
   /// keypoints that claim one template keypoint the most distinctive (smallest ratio) stays. In the
-  /// order of the image's rows; the same input gives the same matches.
+  /// order of the image's rows; the same input gives the same matches, on any thread and several at
+  /// once. None for no rows; throws std::invalid_argument for rows that are not 128 finite floats.
   std::vector<Match> match(const cv::Mat& descriptors) const;
 
  private:

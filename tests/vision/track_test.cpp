@@ -1,0 +1,287 @@
+#include "kestrel/vision/track.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "kestrel/vision/outline_deviation.hpp"
+#include "kestrel/vision/window.hpp"
+
+#include "support/random.hpp"
+#include "support/rendered_view.hpp"
+
+namespace kestrel {
+namespace {
+
+constexpr int kWidth = 200;
+constexpr int kHeight = 160;
+const PixelBox kBox{60, 50, 90, 70};
+const Pixel kCentre{104.5, 84.5};
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const cv::Mat& scene() {
+  static const cv::Mat image = [] {
+    test::Random random("track scene");
+    return test::texture(kWidth, kHeight, random);
+  }();
+  return image;
+}
+
+const Template& model() {
+  static const Template learned(scene(), kBox, {}, {});
+  return learned;
+}
+
+Frame frame_of(const cv::Mat& gray, std::int64_t index = 0) {
+  Frame frame;
+  frame.index = index;
+  frame.gray = gray;
+  return frame;
+}
+
+TrackState everywhere() { return {{0, 0, kWidth, kHeight}}; }
+
+/// The scene moved as a whole; the truth is the motion after the rectangle's place.
+Track track_view(const Homography& motion, const TrackState& state, double noise = 2) {
+  test::Random random("view noise");
+  cv::Mat image = test::view(scene(), motion, kWidth, kHeight);
+  test::add_noise(image, noise, random);
+  return track(model(), frame_of(image), state, {});
+}
+
+Homography truth(const Homography& motion) {
+  return test::product(motion, test::translation(kBox.u, kBox.v));
+}
+
+bool same(const Track& a, const Track& b) {
+  return a.found() == b.found() && a.miss == b.miss && a.matches == b.matches &&
+         a.trials == b.trials && a.inliers.size() == b.inliers.size() &&
+         a.next.window.u == b.next.window.u && a.next.window.width == b.next.window.width &&
+         (!a.found() || a.image_from_template->H == b.image_from_template->H);
+}
+
+TEST(Track, FindsTheTemplateWhereItWasLearned) {
+  const TrackState start = start_tracking(model(), kWidth, kHeight);
+  const Track seen = track(model(), frame_of(scene()), start, {});
+  ASSERT_TRUE(seen.found());
+  EXPECT_EQ(seen.miss, Miss::None);
+  EXPECT_EQ(seen.window.width, 2 * kBox.width);
+  // The same keypoints, described alike: what is left is rounding.
+  EXPECT_LT(test::corner_distance(*seen.image_from_template, test::translation(60, 50), 90, 70),
+            1e-6);
+  EXPECT_GT(int(seen.inliers.size()), int(model().keypoints().at.size()) / 2);
+}
+
+TEST(Track, RecoversKnownViews) {
+  for (const test::Motion& motion :
+       {test::Motion{0.5, 0, 0, 0}, test::Motion{0.7, 0.3, 0, 0}, test::Motion{1.4, -0.3, 0, 0},
+        test::Motion{2, 0, 0, 0}, test::Motion{1, M_PI / 4, 0, 0}, test::Motion{1, M_PI, 0, 0},
+        test::Motion{1, 0, 0.6, 0}, test::Motion{1.2, 0.5, 0.6, 1}}) {
+    const Homography H = test::moved(motion, kCentre, {99, 79});
+    const Track seen = track_view(H, everywhere());
+    ASSERT_TRUE(seen.found()) << motion.scale << " " << motion.angle << " " << motion.tilt;
+    const double deviation = outline_deviation_px(*seen.image_from_template, seen.inliers,
+                                                  model().width(), model().height());
+    // Three deviations that the inliers' own noise explains.
+    EXPECT_LT(test::corner_distance(*seen.image_from_template, truth(H), 90, 70), 3 * deviation)
+        << motion.scale << " " << motion.angle << " " << motion.tilt;
+    EXPECT_LT(deviation, 1.5);
+  }
+}
+
+TEST(Track, LooksNextAroundTheOutlineItFound) {
+  const Homography H = test::moved({0.7, 0, 0, 0}, kCentre, {95, 75});
+  const Track seen = track_view(H, everywhere());
+  ASSERT_TRUE(seen.found());
+  const PixelBox expected =
+      window_around(outline(*seen.image_from_template, 90, 70), kWidth, kHeight);
+  EXPECT_EQ(seen.next.window.u, expected.u);
+  EXPECT_EQ(seen.next.window.v, expected.v);
+  EXPECT_EQ(seen.next.window.width, expected.width);
+  EXPECT_EQ(seen.next.window.height, expected.height);
+}
+
+TEST(Track, DoublesItsWindowUntilItFindsTheTemplateAgain) {
+  const Homography H = test::moved({0.6, 0, 0, 0}, kCentre, {155, 120});
+  TrackState state{{0, 0, 64, 64}};  // where it is not
+  double area = 64 * 64;
+  for (int i = 0; i < 6; ++i) {
+    const Track seen = track_view(H, state);
+    if (seen.found()) {
+      EXPECT_GT(i, 1);
+      EXPECT_LT(test::corner_distance(*seen.image_from_template, truth(H), 90, 70), 2);
+      return;
+    }
+    const PixelBox& next = seen.next.window;
+    area = std::min(2 * area, double(kWidth) * kHeight);
+    EXPECT_NEAR(next.width * next.height, area, 0.05 * area);  // searched on whole pixels
+    state = seen.next;
+  }
+  FAIL() << "not found again";
+}
+
+TEST(Track, LooksOnlyInItsWindow) {
+  const Track seen = track(model(), frame_of(scene()), {{0, 0, 70, 64}}, {});
+  EXPECT_FALSE(seen.found());
+  EXPECT_EQ(seen.window.width, 70);
+  EXPECT_EQ(seen.window.height, 64);
+}
+
+TEST(Track, IsLostWhereThereIsNothing) {
+  test::Random random("nothing");
+  cv::Mat black(kHeight, kWidth, CV_8U, cv::Scalar(0));
+  cv::Mat white(kHeight, kWidth, CV_8U, cv::Scalar(255));
+  cv::Mat noise(kHeight, kWidth, CV_8U, cv::Scalar(128));
+  test::add_noise(noise, 60, random);
+  const cv::Mat other = test::texture(kWidth, kHeight, random);
+  for (const cv::Mat& image : {black, white, noise, other}) {
+    const Track seen = track(model(), frame_of(image), everywhere(), {});
+    EXPECT_FALSE(seen.found());
+    EXPECT_NE(seen.miss, Miss::None);
+  }
+  EXPECT_EQ(track(model(), frame_of(black), everywhere(), {}).miss, Miss::FewKeypoints);
+}
+
+TEST(Track, IsLostInSaturationNotWrong) {
+  cv::Mat saturated;
+  scene().convertTo(saturated, CV_8U, 30, -2000);  // black and white only
+  const Track seen = track(model(), frame_of(saturated), everywhere(), {});
+  if (seen.found()) {
+    EXPECT_LT(test::corner_distance(*seen.image_from_template, test::translation(60, 50), 90, 70),
+              5);
+  }
+  cv::Mat burnt;
+  scene().convertTo(burnt, CV_8U, 1, 240);
+  EXPECT_FALSE(track(model(), frame_of(burnt), everywhere(), {}).found());
+}
+
+TEST(Track, DoesNotTakeAMirrorImageForTheTemplate) {
+  cv::Mat mirrored;
+  cv::flip(scene(), mirrored, 1);
+  EXPECT_FALSE(track(model(), frame_of(mirrored), everywhere(), {}).found());
+}
+
+TEST(Track, WaitsWhereItWasWithoutAnImage) {
+  const TrackState state{{12, 34, 100, 90}};
+  for (const cv::Mat& image : {cv::Mat(), cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(9)),
+                               cv::Mat(kHeight, kWidth, CV_32F, cv::Scalar(9))}) {
+    const Track seen = track(model(), frame_of(image), state, {});
+    EXPECT_FALSE(seen.found());
+    EXPECT_EQ(seen.miss, Miss::NoImage);
+    EXPECT_EQ(seen.next.window.u, 12);
+    EXPECT_EQ(seen.next.window.height, 90);
+  }
+}
+
+TEST(Track, GoesOnWhenTheImageChangesItsSize) {
+  const TrackState state{{150, 120, 90, 80}};
+  const cv::Mat small = scene()(cv::Rect(50, 40, 120, 100)).clone();  // the window lies outside
+  const Track seen = track(model(), frame_of(small), state, {});
+  EXPECT_EQ(seen.window.width, 120);
+  ASSERT_TRUE(seen.found());
+  EXPECT_LT(test::corner_distance(*seen.image_from_template, test::translation(10, 10), 90, 70), 1);
+  const cv::Mat tiny = scene()(cv::Rect(100, 80, 5, 4)).clone();
+  EXPECT_EQ(track(model(), frame_of(tiny), state, {}).miss, Miss::FewKeypoints);
+}
+
+TEST(Track, SearchesTheWholeImageForAWindowThatIsNone) {
+  for (const PixelBox& window : {PixelBox{kNaN, 0, 10, 10}, PixelBox{}, PixelBox{1e9, 1e9, 5, 5}}) {
+    const Track seen = track(model(), frame_of(scene()), {window}, {});
+    EXPECT_TRUE(seen.found());
+    EXPECT_EQ(seen.window.width, kWidth);
+    EXPECT_EQ(seen.window.height, kHeight);
+  }
+}
+
+TEST(Track, RejectsAnOutlineThatIsNoView) {
+  TrackOptions options;
+  options.outline.max_area_ratio = 1.2;
+  const cv::Mat twice =
+      test::view(scene(), test::moved({1.5, 0, 0, 0}, kCentre, {100, 80}), kWidth, kHeight);
+  const Track seen = track(model(), frame_of(twice), everywhere(), options);
+  EXPECT_EQ(seen.miss, Miss::BadOutline);
+  EXPECT_FALSE(seen.found());
+  EXPECT_GE(int(seen.inliers.size()), options.ransac.min_inliers);
+}
+
+TEST(Track, DoesNotGuessTheOutlineFromOneCorner) {
+  cv::Mat covered(kHeight, kWidth, CV_8U, cv::Scalar(128));
+  const cv::Rect corner(50, 40, 46, 40);  // what is left to see
+  scene()(corner).copyTo(covered(corner));
+  TrackOptions trusting;
+  trusting.max_outline_deviation_px = 1e6;
+  const Track seen = track(model(), frame_of(covered), everywhere(), trusting);
+  ASSERT_GE(int(seen.inliers.size()), trusting.ransac.min_inliers);
+  EXPECT_EQ(track(model(), frame_of(covered), everywhere(), {}).miss, Miss::Undetermined);
+}
+
+TEST(Track, IsAFunctionOfItsArguments) {
+  const Homography H = test::moved({0.8, 0.4, 0.4, 1}, kCentre, {103, 83});
+  const cv::Mat image = test::view(scene(), H, kWidth, kHeight);
+  const Track first = track(model(), frame_of(image), everywhere(), {});
+  ASSERT_TRUE(first.found());
+  track(model(), frame_of(scene()), everywhere(), {});
+  cv::theRNG().next();
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  EXPECT_TRUE(same(first, track(model(), frame_of(image), everywhere(), {})));
+  cv::setNumThreads(threads);
+  Track there;
+  std::thread([&] {
+    const Template again(scene(), kBox, {}, {});
+    there = track(again, frame_of(image), everywhere(), {});
+  }).join();
+  EXPECT_TRUE(same(first, there));
+}
+
+TEST(Track, DrawsAnewInEveryFrame) {
+  // A lenient ratio: many matches are wrong, and what trials that costs depends on the draws.
+  MatchOptions lenient;
+  lenient.ratio = 0.97;
+  const Template wary(scene(), kBox, {}, lenient);
+  const Homography H = test::moved({0.7, 0.4, 0.6, 1}, kCentre, {103, 83});
+  cv::Mat image = test::view(scene(), H, kWidth, kHeight);
+  test::Random random("anew");
+  test::add_noise(image, 4, random);
+  std::set<int> trials;
+  for (std::int64_t index = 0; index < 5; ++index) {
+    trials.insert(track(wary, frame_of(image, index), everywhere(), {}).trials);
+  }
+  EXPECT_GT(trials.size(), 1U);
+}
+
+TEST(Track, NamesEveryMissDifferently) {
+  std::set<std::string> names;
+  for (const Miss miss : {Miss::None, Miss::NoImage, Miss::FewKeypoints, Miss::FewMatches,
+                          Miss::NoConsensus, Miss::BadOutline, Miss::Undetermined}) {
+    names.insert(name(miss));
+  }
+  EXPECT_EQ(names.size(), 7U);
+  EXPECT_STREQ(name(Miss::None), "found");
+}
+
+TEST(TrackOptions, NamesWhatIsOutOfRange) {
+  EXPECT_NO_THROW(TrackOptions().check());
+  const auto complains = [](auto change) {
+    TrackOptions options;
+    change(options);
+    EXPECT_THROW(options.check(), std::invalid_argument);
+  };
+  complains([](TrackOptions& o) { o.sift.sigma = kNaN; });
+  complains([](TrackOptions& o) { o.match.ratio = 1; });
+  complains([](TrackOptions& o) { o.ransac.max_trials = -1; });
+  complains([](TrackOptions& o) { o.outline.min_area_ratio = 0; });
+  complains([](TrackOptions& o) { o.outline.max_area_ratio = kNaN; });
+  complains([](TrackOptions& o) { o.outline.min_side_px = -1; });
+  complains([](TrackOptions& o) { o.max_outline_deviation_px = 0; });
+}
+
+}  // namespace
+}  // namespace kestrel
