@@ -64,8 +64,8 @@ std::string relative_url(std::string_view file_name) {
   std::string out = "./";
   for (const char c : file_name) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte < 128 && (std::isalnum(byte) || std::string_view("-._~/").find(c) !=
-                                                                std::string_view::npos);
+    const bool plain = byte < 128 && (std::isalnum(byte) ||
+                                      std::string_view("-._~/").find(c) != std::string_view::npos);
     out += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
   return out;

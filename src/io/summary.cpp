@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "kestrel/io/csv.hpp"

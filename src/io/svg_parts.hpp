@@ -41,8 +41,9 @@ inline double text_width(std::string_view text) {
 
 inline std::string text(double x, double y, std::string_view anchor, std::string_view classes,
                         std::string_view words) {
-  return fmt::format("<text class=\"kt{}{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
-                     classes.empty() ? "" : " ", classes, x, y, anchor, escaped(words));
+  return fmt::format(
+      "<text class=\"kt{}{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
+      classes.empty() ? "" : " ", classes, x, y, anchor, escaped(words));
 }
 
 inline std::string line(double x1, double y1, double x2, double y2, std::string_view classes) {

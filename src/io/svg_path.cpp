@@ -74,8 +74,8 @@ std::string path(const Series& series, std::size_t place, const Axis& x, const A
     }
     if (stretch.size() == 1) d += "h0";  // round caps make a dot of it
   }
-  return d.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>\n",
-                                      line_classes(series, place), d);
+  return d.empty() ? ""
+                   : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", line_classes(series, place), d);
 }
 
 std::string mark(const Mark& mark, double x, double y) {

@@ -79,7 +79,8 @@ Axes axes_of(const Plot& plot, double top) {
     ys.push_back(y);
   };
   for (const Series& series : plot.series)
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) add(series.x[i], series.y[i]);
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
+      add(series.x[i], series.y[i]);
   for (const Mark& mark : plot.marks) add(mark.x, mark.y);
   out.empty = xs.empty();
   const Range near = range_of(ys, plot.y_spacing, 1.5);
@@ -113,9 +114,10 @@ std::string grid(const Plot& plot, const Axes& axes) {
     out += svg::line(left, y, right, y, "kg");
     out += svg::text(left - 6, y + 4, "end", "ky", tick.label);
   }
-  return out + fmt::format("<rect class=\"kf\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
-                           "height=\"{:.1f}\"/>\n",
-                           left, top, right - left, bottom - top);
+  return out + fmt::format(
+                   "<rect class=\"kf\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+                   "height=\"{:.1f}\"/>\n",
+                   left, top, right - left, bottom - top);
 }
 
 std::string labels(const Plot& plot, double top) {
@@ -141,7 +143,8 @@ std::string limit_lines(const Axes& axes) {
 std::string notes(const Plot& plot, const Axes& axes, double top) {
   std::string beyond;
   for (const Limit& limit : axes.beyond)
-    beyond += fmt::format("{}{} {:.4g}", beyond.empty() ? "not drawn: " : ", ", limit.label, limit.y);
+    beyond +=
+        fmt::format("{}{} {:.4g}", beyond.empty() ? "not drawn: " : ", ", limit.label, limit.y);
   std::string out;
   if (!beyond.empty()) out += svg::text(plot.width_px - kRight, 20, "end", "kn", beyond);
   if (axes.empty)
@@ -161,7 +164,8 @@ std::string svg_plot(const Plot& plot) {
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     body += svg::path(plot.series[i], i, axes.x, axes.y);
   for (const Mark& mark : plot.marks) body += svg::mark(mark, axes.x.at(mark.x), axes.y.at(mark.y));
-  const std::string label = fmt::format("Plot: {}. {} over {}", plot.title, plot.y_label, plot.x_label);
+  const std::string label =
+      fmt::format("Plot: {}. {} over {}", plot.title, plot.y_label, plot.x_label);
   return svg::document(plot.width_px, plot.height_px, label, body);
 }
 

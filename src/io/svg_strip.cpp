@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "kestrel/io/axis.hpp"
+
 #include "svg_parts.hpp"
 
 namespace kestrel {
@@ -63,7 +64,8 @@ std::string svg_strip(const Strip& strip) {
   const double bottom = kTop + kLane * double(std::max<std::size_t>(strip.lanes.size(), 1));
   std::vector<double> xs = strip.x;
   if (size > 0) xs.push_back(end_of(strip.x));
-  const Axis axis{range_of(xs, Spacing::Linear, 0), Spacing::Linear, kLeft, strip.width_px - kRight};
+  const Axis axis{range_of(xs, Spacing::Linear, 0), Spacing::Linear, kLeft,
+                  strip.width_px - kRight};
   std::string body = svg::text(kLeft, 20, "start", "kh", strip.title) + grid(axis, bottom);
   for (std::size_t lane = 0; lane < strip.lanes.size(); ++lane) {
     const Bars drawn = bars(strip, size, lane, axis);
@@ -76,9 +78,10 @@ std::string svg_strip(const Strip& strip) {
   if (size == 0)
     body += svg::text((axis.begin + axis.end) / 2, (kTop + bottom) / 2 + 4, "middle", "kn",
                       "no values to show");
-  body += fmt::format("<rect class=\"kf\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
-                      "height=\"{:.1f}\"/>\n",
-                      axis.begin, kTop, axis.end - axis.begin, bottom - kTop);
+  body += fmt::format(
+      "<rect class=\"kf\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+      "height=\"{:.1f}\"/>\n",
+      axis.begin, kTop, axis.end - axis.begin, bottom - kTop);
   body += svg::text((axis.begin + axis.end) / 2, bottom + 34, "middle", "", strip.x_label);
   return svg::document(strip.width_px, bottom + 42, "Time line: " + strip.title, body);
 }

@@ -57,9 +57,9 @@ struct Plot {
 };
 
 /// A static SVG picture of line plots: a whole document, also to be placed inside HTML; light or
-/// dark as the viewer prefers; the colours are Okabe & Ito's (2008), told apart by the colour-blind.
-/// Limits far beyond the values are named in a note, not drawn. Lines of many points are thinned
-/// to the extremes within each pixel column.
+/// dark as the viewer prefers; the colours are Okabe & Ito's (2008), told apart by the
+/// colour-blind. Limits far beyond the values are named in a note, not drawn. Lines of many points
+/// are thinned to the extremes within each pixel column.
 std::string svg_plot(const Plot& plot);
 
 }  // namespace kestrel

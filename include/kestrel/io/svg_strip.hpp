@@ -9,9 +9,9 @@ namespace kestrel {
 struct Strip {
   std::string title;
   std::string x_label;
-  std::vector<std::string> lanes;   // the states, from the top
-  std::vector<double> x;            // ascending
-  std::vector<std::string> states;  // from x[i] on; one that is no lane is drawn nowhere
+  std::vector<std::string> lanes{};  // the states, from the top
+  std::vector<double> x;             // ascending
+  std::vector<std::string> states;   // from x[i] on; one that is no lane is drawn nowhere
   double width_px = 640;
 };
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "kestrel/io/summary.hpp"
+
+namespace kestrel {
+
+/// A part of a report: a heading, a sentence, and pictures as svg_plot and svg_strip make them.
+struct ReportSection {
+  std::string title;
+  std::string text;
+  std::vector<std::string> figures;  // SVG documents
+};
+
+/// A picture of the contact sheet.
+struct ReportPicture {
+  std::string caption;
+  cv::Mat picture;  // 8-bit BGR or grey; an empty one is left out
+};
+
+/// A file of the run folder.
+struct ReportFile {
+  std::string name;  // relative to the report
+  std::string what;
+};
+
+/// What a report page says, in the order it says it.
+struct Report {
+  std::string title;
+  std::string what;  // one paragraph
+  std::vector<std::string> warnings;
+  Summary summary;
+  std::string video;  // file name relative to the report; empty: none
+  std::vector<ReportPicture> pictures;
+  std::vector<ReportSection> sections;
+  std::vector<ReportFile> files;
+  std::string configuration;  // the effective one, as text
+};
+
+/// The report as one HTML page that needs no network and no other file but the video: pictures and
+/// plots are inside; light or dark as the reader prefers; prints. Empty parts are left out.
+std::string report_html(const Report& report);
+
+/// The files of a folder (not of the folders in it), sorted by name, with sizes; names in
+/// `descriptions` get their words, names that are not there are left out.
+std::vector<ReportFile> files_of(const std::filesystem::path& folder,
+                                 const std::vector<ReportFile>& descriptions);
+
+}  // namespace kestrel

@@ -1,0 +1,160 @@
+#include "kestrel/io/report.hpp"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "kestrel/io/markup.hpp"
+
+#include "report_style.hpp"
+
+namespace kestrel {
+namespace {
+
+std::string warnings(const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return "";
+  std::string items;
+  for (const std::string& sentence : sentences) items += "<li>" + escaped(sentence) + "</li>\n";
+  return "<section class=\"warn\" aria-label=\"Warnings\">\n<h2>Look at this first</h2>\n<ul>\n" +
+         items + "</ul>\n</section>\n";
+}
+
+std::string summary_row(const SummaryItem& item) {
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"u\">{}</td></tr>\n",
+      escaped(item.name), escaped(shown(item.value)), escaped(item.unit));
+}
+
+std::string summary_tables(const Summary& summary) {
+  const auto& items = summary.items();
+  std::string out;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool begins = i == 0 || items[i].section != items[i - 1].section;
+    const bool ends = i + 1 == items.size() || items[i + 1].section != items[i].section;
+    if (begins) out += "<table>\n";
+    if (begins && !items[i].section.empty())
+      out += "<caption>" + escaped(items[i].section) + "</caption>\n";
+    out += summary_row(items[i]);
+    if (ends) out += "</table>\n";
+  }
+  return out.empty() ? "" : "<div class=\"card tables\">\n" + out + "</div>\n";
+}
+
+std::string video(const std::string& name) {
+  if (name.empty()) return "";
+  const std::string url = escaped(relative_url(name));
+  const std::string link = fmt::format("<a href=\"{}\">{}</a>", url, escaped(name));
+  const std::string suffix = name.substr(std::min(name.rfind('.'), name.size()));
+  if (suffix != ".mp4" && suffix != ".webm")  // browsers play no Motion JPEG
+    return "<p class=\"card\">Annotated video: " + link + "</p>\n";
+  return fmt::format(
+      "<figure class=\"card\"><video controls muted preload=\"metadata\" src=\"{}\" "
+      "aria-label=\"Annotated video of the run\"></video>\n"
+      "<figcaption>Annotated video: {}</figcaption></figure>\n",
+      url, link);
+}
+
+std::string jpeg(const cv::Mat& picture) {
+  constexpr int kWidest = 800;  // keeps the page to a few megabytes
+  cv::Mat small = picture;
+  if (picture.cols > kWidest)
+    cv::resize(picture, small, {}, double(kWidest) / picture.cols, double(kWidest) / picture.cols,
+               cv::INTER_AREA);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
+  return fmt::format("width=\"{}\" height=\"{}\" src=\"data:image/jpeg;base64,{}\"", small.cols,
+                     small.rows, base64(bytes));
+}
+
+std::string sheet(const std::vector<ReportPicture>& pictures) {
+  std::string out;
+  for (const ReportPicture& picture : pictures) {
+    if (picture.picture.empty()) continue;
+    const std::string caption = escaped(picture.caption);
+    out += fmt::format(
+        "<figure class=\"card\"><img alt=\"Annotated picture: {0}\" {1}>\n"
+        "<figcaption>{0}</figcaption></figure>\n",
+        caption, jpeg(picture.picture));
+  }
+  return out.empty() ? ""
+                     : "<section>\n<h2>Pictures</h2>\n<div class=\"sheet\">\n" + out +
+                           "</div>\n</section>\n";
+}
+
+std::string section(const ReportSection& part) {
+  std::string out = "<section>\n<h2>" + escaped(part.title) + "</h2>\n";
+  if (!part.text.empty()) out += "<p>" + escaped(part.text) + "</p>\n";
+  out += "<div class=\"plots\">\n";
+  for (const std::string& figure : part.figures)
+    out += "<figure class=\"card\">\n" + figure + "</figure>\n";
+  return out + "</div>\n</section>\n";
+}
+
+std::string files(const std::vector<ReportFile>& list) {
+  std::string rows;
+  for (const ReportFile& file : list)
+    rows += fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td>{}</td></tr>\n",
+                        escaped(relative_url(file.name)), escaped(file.name), escaped(file.what));
+  return rows.empty() ? ""
+                      : "<section>\n<h2>Files</h2>\n<div class=\"card\"><table>\n" + rows +
+                            "</table></div>\n</section>\n";
+}
+
+std::string configuration(const std::string& text) {
+  return text.empty()
+             ? ""
+             : "<section>\n<h2>Configuration</h2>\n<div class=\"card\"><pre tabindex=\"0\">" +
+                   escaped(text) + "</pre></div>\n</section>\n";
+}
+
+std::string size_words(std::uintmax_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  const double kilobytes = double(bytes) / 1e3;
+  return kilobytes < 1000 ? fmt::format("{:.1f} kB", kilobytes)
+                          : fmt::format("{:.1f} MB", kilobytes / 1e3);
+}
+
+}  // namespace
+
+std::string report_html(const Report& report) {
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
+      escaped(report.title), kReportStyle);
+  if (!report.what.empty()) page += "<p>" + escaped(report.what) + "</p>\n";
+  page += warnings(report.warnings) + "</header>\n<main>\n";
+  page +=
+      "<div class=\"top\">\n" + summary_tables(report.summary) + video(report.video) + "</div>\n";
+  page += sheet(report.pictures);
+  for (const ReportSection& part : report.sections) page += section(part);
+  page += files(report.files) + configuration(report.configuration);
+  return page +
+         "</main>\n<footer>Made by Kestrel. All numbers of the plots are in the CSV "
+         "files.</footer>\n</body>\n</html>\n";
+}
+
+std::vector<ReportFile> files_of(const std::filesystem::path& folder,
+                                 const std::vector<ReportFile>& descriptions) {
+  std::map<std::string, std::uintmax_t> sizes;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::error_code error;
+    if (entry.is_regular_file(error) && !error)
+      sizes[entry.path().filename().string()] = entry.file_size();
+  }
+  std::vector<ReportFile> out;
+  for (const auto& [name, size] : sizes) {
+    const auto known = std::find_if(descriptions.begin(), descriptions.end(),
+                                    [&](const ReportFile& file) { return file.name == name; });
+    const std::string words = known == descriptions.end() ? "" : known->what + ", ";
+    out.push_back({name, words + size_words(size)});
+  }
+  return out;
+}
+
+}  // namespace kestrel
