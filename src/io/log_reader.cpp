@@ -14,7 +14,7 @@ namespace {
   throw std::runtime_error(where + what + "; was it edited? take the log as the run left it");
 }
 
-double parsed(std::string_view text, double) { return parse_number(text).value(); }
+double parsed(std::string_view text, double) { return csv_number(text).value(); }
 
 template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
 Integer parsed(std::string_view text, Integer) {

@@ -37,18 +37,18 @@ TEST(Number, ComesBackToTheLastBit) {
   test::Random random("number");
   for (int i = 0; i < 5000; ++i) {
     const double value = random.normal() * std::pow(10, random.integer(-300, 300));
-    const double back = parse_number(number(value)).value();
+    const double back = csv_number(number(value)).value();
     EXPECT_EQ(std::memcmp(&value, &back, sizeof value), 0) << number(value);
   }
   for (const double value : {0., -0., 5e-324, std::numeric_limits<double>::max()})
-    EXPECT_EQ(std::signbit(value), std::signbit(parse_number(number(value)).value()));
-  EXPECT_TRUE(std::isnan(parse_number(number(std::nan(""))).value()));
-  EXPECT_TRUE(std::isinf(parse_number("-inf").value()));
+    EXPECT_EQ(std::signbit(value), std::signbit(csv_number(number(value)).value()));
+  EXPECT_TRUE(std::isnan(csv_number(number(std::nan(""))).value()));
+  EXPECT_TRUE(std::isinf(csv_number("-inf").value()));
 }
 
 TEST(Number, IsNothingElse) {
   for (const char* text : {"", " 1", "1 ", "1,5", "0x10", "1e", "one", "+"})
-    EXPECT_FALSE(parse_number(text)) << text;
+    EXPECT_FALSE(csv_number(text)) << text;
 }
 
 TEST(CsvFields, AreOneMoreThanCommas) {
