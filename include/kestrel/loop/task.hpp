@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/plane_pose.hpp"
 #include "kestrel/geometry/transform.hpp"
@@ -13,19 +16,27 @@ namespace kestrel {
 /// Everything the chain needs to know but the frames and the template's picture: one experiment.
 struct Task {
   Camera camera;
-  Mount body_from_camera;
+  Mount body_from_camera{};
   double target_width_m = 0;
   double target_height_m = 0;
-  TargetPose goal;  // camera_from_target to reach, the camera levelled
-  TrackOptions track;
-  PlanePoseOptions pose;
-  ServoOptions servo;
-  CommandLimits limits;
-  LossOptions loss;
+  TargetPose goal{};  // camera_from_target to reach, the camera levelled
+  TrackOptions track{};
+  PlanePoseOptions pose{};
+  ServoOptions servo{};
+  CommandLimits limits{};
+  LossOptions loss{};
 
-  /// Throws std::invalid_argument that names what is out of range: sizes and options, a mount that
-  /// is no rotation, a goal with the target behind the camera.
+  /// Throws std::invalid_argument that names what is out of range (`key: what is wrong; remedy`):
+  /// sizes and options, a mount or goal that is no rotation, a goal with the target behind the
+  /// camera or seen from its back, a goal from which the law has no answer.
   void check() const;
 };
+
+/// The target's corners in the Target frame, m: top left, top right, bottom right, bottom left; the
+/// outer edges of the template's pixels.
+std::array<Eigen::Vector3d, 4> target_corners(const Task& task);
+
+/// What the levelled camera is to see of those corners.
+std::vector<Feature> desired_features(const Task& task);
 
 }  // namespace kestrel

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kestrel/geometry/attitude.hpp"
+#include "kestrel/loop/task.hpp"
+#include "kestrel/servo/servo.hpp"
+#include "kestrel/vehicle/failsafe.hpp"
+#include "kestrel/vehicle/velocity_command.hpp"
+
+namespace kestrel {
+
+/// What the decision carries from frame to frame.
+struct DecisionState {
+  VelocityCommand sent;                // the previous command, after limits
+  std::optional<double> stamp_s;       // of the previous frame
+  VelocityCommand servo_command;       // the last one the law decided, after limits
+  std::optional<double> seen_stamp_s;  // of the frame it was decided for
+};
+
+/// From features to a command.
+struct Decision {
+  std::optional<Servo> servo;  // when the target was seen and the law has an answer
+  BodyTwist body_twist;        // of the body (levelled when the attitude is known); zero without
+  VelocityCommand wanted;      // before the limits
+  VelocityCommand command;     // what is sent: finite, within the limits
+  CommandState state = CommandState::Hover;
+  DecisionState next;
+};
+
+/// The part of the loop below the image: features of the target's corners (as desired_features
+/// orders them) as the camera measured them, empty when not seen -> servo law -> body -> limits;
+/// hold, decay, hover without features or answer. stamp_s: capture time of the frame.
+///
+/// With an attitude the features are turned into the levelled camera and the lever arm into the
+/// levelled body, so that the law is exact in the heading frame the command is for. Without one the
+/// camera is taken as it is, and the tilt of the helicopter is answered as if it were an error.
+///
+/// The change of the command is limited over the time since the previous frame. The first frame has
+/// none, and after a gap longer than loss.hover_after_s nothing is known of what the helicopter
+/// did: both start from hover and change nothing yet.
+///
+/// Never throws for what a frame may bring. Hover, with all before it forgotten, when the stamp is
+/// not finite or does not increase, and when a feature or the attitude is not finite.
+Decision decide(const std::vector<Feature>& measured, const std::optional<Attitude>& attitude,
+                double stamp_s, const DecisionState& state, const Task& task);
+
+}  // namespace kestrel

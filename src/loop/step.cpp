@@ -1,0 +1,52 @@
+#include "kestrel/loop/step.hpp"
+
+namespace kestrel {
+namespace {
+
+PlaneSize plane_size(const Template& model, const Task& task) {
+  return {model.width(), model.height(), task.target_width_m, task.target_height_m};
+}
+
+}  // namespace
+
+std::vector<Feature> corner_features(const Homography& image_from_template, const Template& model,
+                                     const TargetPose& camera_from_target, const Task& task) {
+  const double left = -0.5;  // the outer edge of the first pixel, whose centre is at 0
+  const double right = model.width() - 0.5;
+  const double bottom = model.height() - 0.5;
+  const std::array<Pixel, 4> edges = {
+      {{left, left}, {right, left}, {right, bottom}, {left, bottom}}};
+  const std::array<Eigen::Vector3d, 4> in_target = target_corners(task);
+  std::vector<Feature> corners;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const ImagePoint at = task.camera.to_image_point(image_from_template * edges[i]);
+    corners.push_back({at, (camera_from_target * in_target[i]).z()});
+  }
+  return corners;
+}
+
+LoopState start(const Template& model, const Frame& first, const Task& /*task*/) {
+  LoopState state;
+  state.track = start_tracking(model, first.gray.cols, first.gray.rows);
+  return state;
+}
+
+Step step(const Template& model, const Frame& frame, const LoopState& state, const Task& task) {
+  Step s;
+  s.track = track(model, frame, state.track, task.track);
+  if (s.track.found()) {
+    s.pose = plane_pose(*s.track.image_from_template, plane_size(model, task), task.camera,
+                        state.pose, task.pose);
+  }
+  if (s.pose) {
+    s.measured =
+        corner_features(*s.track.image_from_template, model, s.pose->camera_from_target, task);
+  }
+  s.decision = decide(s.measured, frame.attitude, frame.stamp_s, state.decision, task);
+  s.next.track = s.track.next;
+  s.next.pose = s.pose ? s.pose->camera_from_target : state.pose;
+  s.next.decision = s.decision.next;
+  return s;
+}
+
+}  // namespace kestrel

@@ -1,0 +1,85 @@
+#include "kestrel/loop/task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "kestrel/geometry/rotation.hpp"
+
+namespace kestrel {
+namespace {
+
+/// The most by which R^T R may miss the identity; the servo law asks the same of its mount.
+constexpr double kRotationTolerance = 1e-6;
+
+void require(bool good, const std::string& message) {
+  if (!good) throw std::invalid_argument(message);
+}
+
+void require_length(const char* key, double value_m) {
+  std::ostringstream message;
+  message << key << ": must be positive and finite (m), is " << value_m;
+  require(std::isfinite(value_m) && value_m > 0, message.str());
+}
+
+template <class To, class From>
+void require_rigid(const std::string& key, const Transform<To, From>& transform) {
+  require(transform.translation.allFinite(), key + ": the translation must be finite (m)");
+  require(rotation_defect(transform.rotation) <= kRotationTolerance,
+          key +
+              ": the rotation is no rotation matrix; its columns must be orthogonal, of length 1 "
+              "and right-handed");
+}
+
+/// The check of one group of options, its name before the option's.
+template <class Options>
+void check_group(const std::string& group, const Options& options) {
+  try {
+    options.check();
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(group + '.' + e.what());
+  }
+}
+
+void check_goal(const Task& task) {
+  require_rigid("goal", task.goal);
+  const std::vector<Feature> desired = desired_features(task);
+  require(
+      std::all_of(desired.begin(), desired.end(), [](const Feature& f) { return f.depth_m > 0; }),
+      "goal: the target is not in front of the camera; its translation z must be positive");
+  require(task.goal.rotation.col(2).dot(task.goal.translation) > 0,
+          "goal: the camera would see the back of the target; the target's z axis must point away "
+          "from the camera");
+  require(servo(desired, desired, task.body_from_camera, task.servo).has_value(),
+          "goal: from there the corners determine no command; come nearer, look less along the "
+          "plane, or choose a smaller servo.freedom");
+}
+
+}  // namespace
+
+void Task::check() const {
+  require_length("target_width_m", target_width_m);
+  require_length("target_height_m", target_height_m);
+  require_rigid("body_from_camera", body_from_camera);
+  check_group("track", track);
+  require(std::isfinite(pose.corner_noise_px) && pose.corner_noise_px >= 0,
+          "pose.corner_noise_px: must be finite and not negative (px)");
+  check_group("servo", servo);
+  check_group("limits", limits);
+  check_group("loss", loss);
+  check_goal(*this);
+}
+
+std::array<Eigen::Vector3d, 4> target_corners(const Task& task) {
+  const double x = task.target_width_m / 2;
+  const double y = task.target_height_m / 2;
+  return {{{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}};
+}
+
+std::vector<Feature> desired_features(const Task& task) {
+  return features(task.goal, target_corners(task));
+}
+
+}  // namespace kestrel
