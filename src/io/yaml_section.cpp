@@ -112,6 +112,12 @@ bool Section::has(const std::string& key) const {
   return record.node->find(key) != nullptr;
 }
 
+double Section::number(const std::string& key) const { return value(key).parsed(parse_number); }
+
+std::int64_t Section::integer(const std::string& key) const {
+  return value(key).parsed(parse_integer);
+}
+
 int Section::whole(const std::string& key, int otherwise) const {
   const std::int64_t wide = integer(key, otherwise);
   if (wide != int(wide)) fail(key, std::to_string(wide) + " is too large; write a smaller number");
