@@ -1,5 +1,6 @@
 // The tracker with its default options on real sequences with ground truth.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -92,6 +93,9 @@ void print(const std::string& name, const Score& s) {
   std::fflush(stdout);
 }
 
+constexpr std::array<const char*, 4> kAsserted{"apt_vcube_comic", "bruegel", "postcard_a",
+                                               "mural_tree"};
+
 class GoldenTrack : public testing::TestWithParam<const char*> {};
 
 TEST_P(GoldenTrack, FindsTheTargetAndIsNeverFarOff) {
@@ -104,9 +108,36 @@ TEST_P(GoldenTrack, FindsTheTargetAndIsNeverFarOff) {
   EXPECT_EQ(score.over_10_px, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sequences, GoldenTrack,
-                         testing::Values("apt_vcube_comic", "bruegel", "postcard_a", "mural_tree"),
+INSTANTIATE_TEST_SUITE_P(Sequences, GoldenTrack, testing::ValuesIn(kAsserted),
                          [](const auto& sequence) { return std::string(sequence.param); });
+
+TEST(GoldenAbsence, IsNeverTakenForTheTarget) {
+  // Every 20th frame of the other sequences, searched as a whole for this one's template.
+  std::vector<test::SharedSequence> sequences;
+  for (const char* which : kAsserted) {
+    const test::SharedData data = test::load_shared(which);
+    if (!data.sequence) GTEST_SKIP() << data.why_not;
+    sequences.push_back(*data.sequence);
+  }
+  const TrackOptions options;
+  int searched = 0;
+  for (std::size_t t = 0; t < sequences.size(); ++t) {
+    const Template model(sequences[t].frames.front(), sequences[t].template_box, options.sift,
+                         options.match);
+    for (std::size_t s = 0; s < sequences.size(); ++s) {
+      for (std::size_t i = 0; s != t && i < sequences[s].frames.size(); i += 20, ++searched) {
+        const cv::Mat& gray = sequences[s].frames[i];
+        Frame frame;
+        frame.index = std::int64_t(i);
+        frame.gray = gray;
+        const TrackState everywhere{{0, 0, double(gray.cols), double(gray.rows)}};
+        EXPECT_FALSE(track(model, frame, everywhere, options).found())
+            << kAsserted[t] << " in " << kAsserted[s] << " frame " << i;
+      }
+    }
+  }
+  std::printf("absent targets: none found in %d frames\n", searched);
+}
 
 /// Prints the table of all sequences; run with --gtest_also_run_disabled_tests.
 class GoldenTable : public testing::TestWithParam<const char*> {};

@@ -35,7 +35,12 @@ cv::Mat disturbed(const cv::Mat& rows, double sigma, test::Random& random) {
 }
 
 double row_distance(const cv::Mat& a, int i, const cv::Mat& b, int j) {
-  return cv::norm(a.row(i), b.row(j), cv::NORM_L2);
+  double sum = 0;
+  for (int k = 0; k < 128; ++k) {
+    const double d = double(a.at<float>(i, k)) - b.at<float>(j, k);
+    sum += d * d;
+  }
+  return std::sqrt(sum);
 }
 
 bool same(const std::vector<Match>& a, const std::vector<Match>& b) {
