@@ -15,40 +15,70 @@ namespace kestrel::sim_detail {
 constexpr int kRun = 16;
 using Run = std::array<float, kRun>;
 
-/// The texture at one scale, its right and lower edge repeated once so that a bilinear tap needs
-/// no test.
+/// The texture at one scale, ready for bilinear taps.
 struct Level {
-  cv::Mat padded;
-  float per_texel_s = 1;  // texels of this level per texel of the finest
+  cv::Mat grey;           // its edge repeated, so that a tap needs no test
+  float per_texel_s = 1;  // texels of this level per texel of the texture
   float per_texel_t = 1;
-  int width() const { return padded.cols - 1; }
-  int height() const { return padded.rows - 1; }
+  float first = 0;   // where the first value lies: 0.5 in a texel's centre, 0 on the outer edge
+  float last_s = 0;  // from the first value to the last one
+  float last_t = 0;
 };
 
-/// Levels per octave. With four, the level whose texels suit a pixel best is never more than 19 %
-/// off, and one bilinear tap then has nearly the response of a square pixel (0.5 to 0.6 of full
-/// contrast at half a cycle per pixel, where the square has 0.64, and 4 % at one cycle).
+/// A texture and its means.
+struct Pyramid {
+  float width = 0;  // of the texture, texels
+  float height = 0;
+  Level sharp;  // the texture itself
+  /// Means over 2x2 of its texels, each level 2^(1/4) coarser, from texels half as large as the
+  /// texture's on. One tap of the level whose two texels span a pixel best is then the mean over
+  /// the pixel, within 9 % of its width: edges stay where they are, also when they run along a row
+  /// of pixels. (Taps of unaveraged texels would shift such edges by up to 0.1 px.)
+  std::vector<Level> means;
+};
+
 constexpr int kLevelsPerOctave = 4;
 
-/// The texture and its area means, each level 2^(1/4) coarser, down to a few texels across.
-inline std::vector<Level> pyramid(const cv::Mat& texture) {
+inline Level sharp_level(const cv::Mat& texture) {
+  Level level;
+  cv::copyMakeBorder(texture, level.grey, 0, 1, 0, 1, cv::BORDER_REPLICATE);
+  level.first = 0.5;
+  level.last_s = float(texture.cols - 1);
+  level.last_t = float(texture.rows - 1);
+  return level;
+}
+
+/// Of the texture resized to `picture`.
+inline Level mean_level(const cv::Mat& picture, cv::Size texture) {
+  Level level;
+  cv::copyMakeBorder(picture, level.grey, 1, 2, 1, 2, cv::BORDER_REPLICATE);
+  cv::blur(level.grey, level.grey, {2, 2}, {0, 0}, cv::BORDER_REPLICATE);
+  level.per_texel_s = float(picture.cols) / float(texture.width);
+  level.per_texel_t = float(picture.rows) / float(texture.height);
+  level.last_s = float(picture.cols);
+  level.last_t = float(picture.rows);
+  return level;
+}
+
+inline Pyramid pyramid(const cv::Mat& texture) {
+  Pyramid result{float(texture.cols), float(texture.rows), sharp_level(texture), {}};
   std::vector<cv::Mat> pictures;
-  std::vector<Level> levels;
   for (int i = 0;; ++i) {
-    const double shrink = std::exp2(-double(i) / kLevelsPerOctave);
-    const cv::Size size(int(std::lround(texture.cols * shrink)),
-                        int(std::lround(texture.rows * shrink)));
-    if (i > 0 && std::min(size.width, size.height) < 2) return levels;
-    // From the level one octave finer; within the first octave from the texture itself.
+    const double scale = 2 * std::exp2(-double(i) / kLevelsPerOctave);
+    const cv::Size size(int(std::lround(texture.cols * scale)),
+                        int(std::lround(texture.rows * scale)));
+    if (i > kLevelsPerOctave && std::min(size.width, size.height) < 2) return result;
+    // Finer than the texture: interpolated. Coarser: from the picture an octave finer.
+    const int octave_finer = i - kLevelsPerOctave;
     cv::Mat picture = texture;
-    const int source = std::max(0, i - kLevelsPerOctave);
-    if (i > 0) cv::resize(pictures[std::size_t(source)], picture, size, 0, 0, cv::INTER_AREA);
+    if (octave_finer < 0) cv::resize(texture, picture, size, 0, 0, cv::INTER_LINEAR);
+    if (octave_finer > 0) {
+      const cv::Mat& source =
+          octave_finer < kLevelsPerOctave ? texture : pictures[std::size_t(octave_finer)];
+      cv::resize(source, picture, size, 0, 0, cv::INTER_AREA);
+    }
     pictures.push_back(picture);
-    Level level;
-    cv::copyMakeBorder(picture, level.padded, 0, 1, 0, 1, cv::BORDER_REPLICATE);
-    level.per_texel_s = float(picture.cols) / float(texture.cols);
-    level.per_texel_t = float(picture.rows) / float(texture.rows);
-    levels.push_back(level);
+    result.means.push_back(mean_level(picture, texture.size()));
   }
 }
 
@@ -61,33 +91,56 @@ struct Footprint {
   float tb;
 };
 
-/// Texels from tap to tap that a level is chosen for, at least and at most.
-constexpr float kMinSpacing = 1.3f;
-constexpr float kMaxSpacing = 1.6f;
-/// Most taps along a side; a footprint that needs more is read from a coarser level.
+/// Longest row of taps; a footprint that needs more is read from a coarser level.
 constexpr float kMaxTaps = 32;
+/// Texels that one tap stands for: of the texture itself, and of a level of means with the 9 %
+/// that its scale may be off.
+constexpr float kSharpTap = 1;
+constexpr float kMeanTap = 2.2f;
 
-/// Index of the level to read a footprint from: its narrow side spans one tap there.
-inline int level_for(const Footprint& f, int levels) {
-  const float longest = std::max(std::hypot(f.sa, f.ta), std::hypot(f.sb, f.tb));
+/// A level and how its taps share a footprint.
+struct Reading {
+  const Level* level;
+  float across;  // taps
+  float down;
+};
+
+/// From the level whose mean spans the narrow side of the footprint in one tap; where the texture
+/// is magnified more than twofold, 2x2 taps of the texture itself.
+inline Reading reading(const Pyramid& pyramid, const Footprint& f) {
+  const float a = std::sqrt(f.sa * f.sa + f.ta * f.ta);
+  const float b = std::sqrt(f.sb * f.sb + f.tb * f.tb);
+  const float longest = std::max(a, b);
   const float narrowest = std::abs(f.sa * f.tb - f.sb * f.ta) / std::max(longest, 1e-20f);
-  const float texels = std::max(narrowest / kMinSpacing, longest / (kMaxTaps * kMaxSpacing));
-  if (!(texels > 1)) return 0;
-  return int(std::min(float(levels - 1), std::floor(kLevelsPerOctave * std::log2(texels))));
+  const float texels = std::max(narrowest, longest / kMaxTaps);
+  if (!(texels > 0.46f)) {  // 2^(-9/8): where the finest means would be half a level too coarse
+    const auto taps = [](float length) { return std::max(2.f, std::ceil(length / kSharpTap)); };
+    return {&pyramid.sharp, taps(a), taps(b)};
+  }
+  const float wanted = std::round(kLevelsPerOctave * (std::log2(texels) + 1));
+  const float i = std::clamp(wanted, 0.f, float(pyramid.means.size() - 1));
+  const Level& level = pyramid.means[std::size_t(i)];
+  const float scale = std::max(level.per_texel_s, level.per_texel_t);
+  const auto taps = [scale](float length) {
+    return std::clamp(std::ceil(length * scale / kMeanTap), 1.f, kMaxTaps);
+  };
+  return {&level, taps(a), taps(b)};
 }
 
 /// Bilinear grey levels at (s[k] + ds, t[k] + dt), texels of this level from its outer edge; beyond
 /// the edge the edge's. Coordinates that are not numbers read the first texel.
 inline Run taps(const Level& level, const Run& s, const Run& t, float ds, float dt) {
-  const float right = float(level.width() - 1);
-  const float bottom = float(level.height() - 1);
+  const float right = level.last_s;
+  const float bottom = level.last_t;
+  ds -= level.first;
+  dt -= level.first;
   std::array<std::int32_t, kRun> column;
   std::array<std::int32_t, kRun> row;
   Run a;
   Run b;
   for (std::size_t k = 0; k < kRun; ++k) {
-    float x = s[k] + (ds - 0.5f);
-    float y = t[k] + (dt - 0.5f);
+    float x = s[k] + ds;
+    float y = t[k] + dt;
     x = x > 0 ? x : 0;
     y = y > 0 ? y : 0;
     x = x < right ? x : right;
@@ -97,8 +150,8 @@ inline Run taps(const Level& level, const Run& s, const Run& t, float ds, float 
     a[k] = x - float(column[k]);
     b[k] = y - float(row[k]);
   }
-  const std::uint8_t* data = level.padded.data;
-  const std::size_t step = level.padded.step[0];
+  const std::uint8_t* data = level.grey.data;
+  const std::size_t step = level.grey.step[0];
   std::array<std::int32_t, kRun> upper;  // two neighbouring texels each
   std::array<std::int32_t, kRun> lower;
   for (std::size_t k = 0; k < kRun; ++k) {
@@ -120,18 +173,13 @@ inline Run taps(const Level& level, const Run& s, const Run& t, float ds, float 
   return grey;
 }
 
-/// Mean grey levels over footprints centred at (s[k], t[k]), texels of the finest level from its
-/// outer edge.
-inline Run mean_light(const std::vector<Level>& levels, Run s, Run t, Footprint f) {
-  const Level& level = levels[std::size_t(level_for(f, int(levels.size())))];
-  const float x = level.per_texel_s;
-  const float y = level.per_texel_t;
+/// Mean grey levels over footprints centred at (s[k], t[k]), texels of the texture from its outer
+/// edge.
+inline Run mean_light(const Pyramid& pyramid, Run s, Run t, Footprint f) {
+  const auto [level, across, down] = reading(pyramid, f);
+  const float x = level->per_texel_s;
+  const float y = level->per_texel_t;
   f = {f.sa * x, f.ta * y, f.sb * x, f.tb * y};
-  const auto count = [](float ds, float dt) {
-    return std::clamp(std::ceil(std::hypot(ds, dt) / kMaxSpacing), 1.f, kMaxTaps);
-  };
-  const float across = count(f.sa, f.ta);
-  const float down = count(f.sb, f.tb);
   for (std::size_t k = 0; k < kRun; ++k) {
     s[k] *= x;
     t[k] *= y;
@@ -139,7 +187,7 @@ inline Run mean_light(const std::vector<Level>& levels, Run s, Run t, Footprint 
   Run sum{};
   for (float j = 0.5f / down - 0.5f; j < 0.5f; j += 1 / down) {
     for (float i = 0.5f / across - 0.5f; i < 0.5f; i += 1 / across) {
-      const Run grey = taps(level, s, t, i * f.sa + j * f.sb, i * f.ta + j * f.tb);
+      const Run grey = taps(*level, s, t, i * f.sa + j * f.sb, i * f.ta + j * f.tb);
       for (std::size_t k = 0; k < kRun; ++k) sum[k] += grey[k];
     }
   }

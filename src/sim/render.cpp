@@ -16,7 +16,6 @@ namespace {
 
 using sim_detail::kNearlyAlong;
 using sim_detail::kRun;
-using sim_detail::Level;
 using sim_detail::Run;
 
 /// Where rays meet the plane, texels from the texture's outer edge, and 1 / depth, 1/m.
@@ -48,17 +47,15 @@ OnTexture on_texture(const Eigen::Matrix3f& texture_from_ray, const float* ray_x
 }  // namespace
 
 struct Renderer::Plane {
-  std::vector<Level> levels;         // of the texture, the finest first
+  sim_detail::Pyramid texture;
   Eigen::Matrix3d texture_from_xy1;  // texels from the outer edge, of (x, y, 1) on the plane, m
   Transform<frame::World, frame::Target> world_from_target;
 };
 
 /// A plane as one pose sees it.
 struct Renderer::Seen {
-  const Plane* plane;
+  const sim_detail::Pyramid* texture;
   Eigen::Matrix3f texture_from_ray;  // (s, t, 1) / depth of a ray (x, y, 1), s and t in texels
-  float width;                       // of the texture, texels
-  float height;
 };
 
 /// What one plane gives to a run of pixels.
@@ -110,8 +107,7 @@ std::vector<Renderer::Seen> Renderer::seen(
     const double distance_m = pose.rotation.col(2).dot(pose.translation);
     if (distance_m < 1e-6) continue;  // from behind, or edge on
     const Eigen::Matrix3d M = plane->texture_from_xy1 * ray_from_xy1.inverse();
-    const Level& finest = plane->levels.front();
-    result.push_back({&*plane, M.cast<float>(), float(finest.width()), float(finest.height())});
+    result.push_back({&plane->texture, M.cast<float>()});
   }
   return result;
 }
@@ -134,11 +130,12 @@ Renderer::Shades Renderer::shades(const Seen& seen, const float* ray_x, const fl
   const Eigen::Vector2f down = step(stride);
   if (!right.allFinite() || !down.allFinite()) return {};
   Shades shades;
-  shades.cover = sim_detail::cover(w, sim_detail::slabs(w, s, seen.width, right.x(), down.x()),
-                                   sim_detail::slabs(w, t, seen.height, right.y(), down.y()));
+  shades.cover =
+      sim_detail::cover(w, sim_detail::slabs(w, s, seen.texture->width, right.x(), down.x()),
+                        sim_detail::slabs(w, t, seen.texture->height, right.y(), down.y()));
   if (sim_detail::is_all(shades.cover, 0)) return shades;
   shades.light =
-      sim_detail::mean_light(seen.plane->levels, s, t, {right.x(), right.y(), down.x(), down.y()});
+      sim_detail::mean_light(*seen.texture, s, t, {right.x(), right.y(), down.x(), down.y()});
   return shades;
 }
 

@@ -127,6 +127,7 @@ TEST(Render, PictureOnThePlaneAppearsWhereTheCameraModelPutsItAtEveryScale) {
     const CameraPose pose = looking(random.rotation_vector(0.5), distance_m,
                                     random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05));
     const Scene scene = on_wall(texture, 4.83 / 2, 3.61 / 2, 0);
+    SCOPED_TRACE(distance_m);
     expect_same(moments(render(scene, small_camera(), pose)),
                 projected_moments(pose, small_camera(), 1.61 / 2, 1.21 / 2));
   }

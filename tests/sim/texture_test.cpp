@@ -62,7 +62,8 @@ TEST(Texture, PosterIsNowhereLikeItselfButTheFacadeIs) {
   const cv::Mat unique = poster(320, 240, 1);
   for (int dy = 0; dy < 160; dy += 20) {
     for (int dx = 0; dx < 240; dx += 20) {
-      if (dx + dy >= 40) EXPECT_LT(self_likeness(unique, dx, dy), 0.45) << dx << "," << dy;
+      if (dx + dy < 40) continue;
+      EXPECT_LT(self_likeness(unique, dx, dy), 0.45) << dx << "," << dy;
     }
   }
   const cv::Mat wall = facade(480, 320, 20, 1);

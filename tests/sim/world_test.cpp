@@ -156,7 +156,9 @@ TEST(World, SameSeedSameFilm) {
     const cv::Mat film = a.next()->gray;
     EXPECT_EQ(cv::norm(film, b.next()->gray, cv::NORM_INF), 0);
     EXPECT_GT(cv::norm(film, c.next()->gray, cv::NORM_INF), 0);
-    if (k > 0) EXPECT_GT(cv::norm(film, previous, cv::NORM_INF), 0);  // nothing moved: the noise
+    if (k > 0) {
+      EXPECT_GT(cv::norm(film, previous, cv::NORM_INF), 0);  // nothing moved: the noise
+    }
     previous = film;
   }
 }

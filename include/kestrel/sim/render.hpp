@@ -26,7 +26,7 @@ struct RenderOptions {
 /// A camera looking at a scene. Each pixel is the mean light over its square, [u - 0.5, u + 0.5] x
 /// [v - 0.5, v + 0.5]: a ray is cast through the lens at its centre and the pixel's footprint on
 /// the first plane it meets is integrated over a pyramid of the texture (from the level on which
-/// the footprint is one bilinear tap wide, with as many taps as it is then long); edges blend by
+/// the footprint is one tap wide, with as many taps as it is then long); edges blend by
 /// the share of the pixel they cover. The same bytes at any number of threads.
 class Renderer {
  public:
