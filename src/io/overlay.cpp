@@ -19,17 +19,58 @@ const cv::Scalar kGreen(60, 220, 40);
 const cv::Scalar kRed(40, 40, 235);
 constexpr int kShift = 4;  // OpenCV draws at 1/16 px
 
-// Pixels further out than this overflow OpenCV's fixed-point coordinates.
-bool is_drawable(const Pixel& p) { return std::abs(p.u) < 30000 && std::abs(p.v) < 30000; }
-
 cv::Point fixed_point(const Pixel& p) {
   return {int(std::lround(p.u * (1 << kShift))), int(std::lround(p.v * (1 << kShift)))};
 }
 
+bool is_near(const Pixel& p, const cv::Mat& picture) {
+  constexpr double kMargin = 64;  // more than any mark's size
+  return p.u > -kMargin && p.v > -kMargin && p.u < picture.cols + kMargin &&
+         p.v < picture.rows + kMargin;
+}
+
+struct Segment {
+  Pixel from;
+  Pixel to;
+};
+
+// The part of a segment near the picture (Liang & Barsky 1984): OpenCV's drawing walks along what
+// is outside, for seconds when an end is far away, and its fixed-point numbers overflow.
+std::optional<Segment> near_part(const Pixel& a, const Pixel& b, const cv::Mat& picture) {
+  const double direction[] = {b.u - a.u, b.v - a.v};
+  const double start[] = {a.u, a.v};
+  const double size[] = {double(picture.cols), double(picture.rows)};
+  constexpr double kMargin = 16;
+  double first = 0;
+  double last = 1;
+  for (int i = 0; i < 2; ++i) {
+    const double low = (-kMargin - start[i]) / direction[i];
+    const double high = (size[i] + kMargin - start[i]) / direction[i];
+    const bool is_inside = start[i] >= -kMargin && start[i] <= size[i] + kMargin;
+    if (direction[i] == 0 && is_inside) continue;
+    if (!std::isfinite(low) || !std::isfinite(high)) return std::nullopt;
+    first = std::max(first, std::min(low, high));
+    last = std::min(last, std::max(low, high));
+  }
+  if (!(first <= last)) return std::nullopt;
+  const auto at = [&](double t) { return Pixel{a.u + t * direction[0], a.v + t * direction[1]}; };
+  const Segment part{at(first), at(last)};
+  if (!is_near(part.from, picture) || !is_near(part.to, picture)) return std::nullopt;
+  return part;
+}
+
 void draw_line(cv::Mat& picture, const Pixel& from, const Pixel& to, const cv::Scalar& colour,
                int thickness) {
-  if (is_drawable(from) && is_drawable(to))
-    cv::line(picture, fixed_point(from), fixed_point(to), colour, thickness, cv::LINE_AA, kShift);
+  if (const auto part = near_part(from, to, picture))
+    cv::line(picture, fixed_point(part->from), fixed_point(part->to), colour, thickness,
+             cv::LINE_AA, kShift);
+}
+
+void draw_circle(cv::Mat& picture, const Pixel& centre, int radius, const cv::Scalar& colour,
+                 int thickness) {
+  if (is_near(centre, picture))
+    cv::circle(picture, fixed_point(centre), radius << kShift, colour, thickness, cv::LINE_AA,
+               kShift);
 }
 
 // A number that looks random but is always the same for one template keypoint (FNV-1a of its
@@ -96,16 +137,16 @@ void draw_matches(cv::Mat& picture, const std::vector<PixelPair>& pairs, double 
                      scale * (pair.in_template.v + 0.5) - 0.5};
     const cv::Scalar colour = colour_of(pair.in_template);
     draw_line(picture, from, pair.in_image, colour, 1);
-    if (!is_drawable(pair.in_image) || !is_drawable(from)) continue;
-    for (const Pixel& end : {from, pair.in_image})
-      cv::circle(picture, fixed_point(end), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+    draw_circle(picture, from, 2, colour, cv::FILLED);
+    draw_circle(picture, pair.in_image, 2, colour, cv::FILLED);
   }
 }
 
 // Black, with a light edge on both sides: it is seen on dark images too.
 void draw_window(cv::Mat& picture, const PixelBox& window) {
-  const Pixel last{window.u + window.width - 1, window.v + window.height - 1};
-  if (!is_drawable({window.u, window.v}) || !is_drawable(last)) return;
+  constexpr double kFurthest = 30000;  // OpenCV's fixed-point numbers
+  for (const double number : {window.u, window.v, window.width, window.height})
+    if (!(std::abs(number) < kFurthest)) return;
   if (!(window.width >= 1) || !(window.height >= 1)) return;
   const cv::Rect box(int(std::lround(window.u)), int(std::lround(window.v)),
                      int(std::lround(window.width)), int(std::lround(window.height)));
@@ -128,10 +169,9 @@ void draw_outline(cv::Mat& picture, const std::array<Pixel, 4>& corners) {
 
 void draw_corners(cv::Mat& picture, const std::array<Pixel, 4>& corners, const cv::Scalar& colour) {
   for (const Pixel& corner : corners) {
-    if (!is_drawable(corner)) continue;
     draw_line(picture, {corner.u - 6, corner.v}, {corner.u + 6, corner.v}, colour, 1);
     draw_line(picture, {corner.u, corner.v - 6}, {corner.u, corner.v + 6}, colour, 1);
-    cv::circle(picture, fixed_point(corner), 4 << kShift, colour, 1, cv::LINE_AA, kShift);
+    draw_circle(picture, corner, 4, colour, 1);
   }
 }
 

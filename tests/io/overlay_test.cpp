@@ -94,8 +94,9 @@ TEST(Overlay, JoinsMatchesByColouredLines) {
   Track track = seen();
   track.inliers = {{{60, 45}, {360, 245}}};
   const cv::Mat drawn = overlay({0, 0, grey(640, 480, 50), {}}, noise(120, 90), track);
-  for (const double part : {0.2, 0.5, 0.8})
-    EXPECT_TRUE(is_colour(drawn.at<cv::Vec3b>(int(45 + 200 * part), int(60 + 300 * part))));
+  for (const double part : {0.3, 0.5, 0.7})
+    EXPECT_TRUE(is_colour(drawn.at<cv::Vec3b>(int(45 + 200 * part), int(60 + 300 * part))))
+        << part;
 }
 
 TEST(Overlay, MapsMatchesOfAShrunkTemplate) {
@@ -151,7 +152,7 @@ TEST(Overlay, TakesAnySizeAndNonsense) {
   test::Random random("overlay.any");
   const double odd[] = {kNan, 1 / 0., -1e300, 1e300, -5e9, 5e9, -3, 0, 7, 40000};
   const auto any = [&] { return odd[random.integer(0, 9)]; };
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 100; ++i) {
     Track track = seen();
     track.window = {any(), any(), any(), any()};
     track.image_from_template.emplace().H = Eigen::Matrix3d::NullaryExpr(any);
