@@ -3,24 +3,21 @@
 #include <set>
 
 namespace kestrel {
-namespace {
-
-/// One map of the file that was opened, and what was asked of it.
-struct Record {
-  std::string name;  // dotted, empty for the root
-  const YamlNode* node;
-  int line = 0;
-  std::set<std::string> known;
-  std::set<std::string> read;
-
-  std::string full_key(const std::string& key) const {
-    return name.empty() || key.empty() ? name + key : name + "." + key;
-  }
-};
-
-}  // namespace
 
 struct Section::Document {
+  /// One map of the file that was opened, and what was asked of it.
+  struct Record {
+    std::string name;  // dotted, empty for the root
+    const YamlNode* node;
+    int line = 0;
+    std::set<std::string> known;
+    std::set<std::string> read;
+
+    std::string full_key(const std::string& key) const {
+      return name.empty() || key.empty() ? name + key : name + "." + key;
+    }
+  };
+
   std::filesystem::path file;
   YamlNode root;
   std::vector<Record> records;
@@ -90,7 +87,7 @@ Section Section::load(const std::filesystem::path& file) {
 }
 
 Section::Value Section::value(const std::string& key) const {
-  Record& record = document_->records[record_];
+  Document::Record& record = document_->records[record_];
   record.known.insert(key);
   record.read.insert(key);
   if (const auto* entry = record.node->find(key)) {
@@ -107,16 +104,14 @@ Section::Value Section::value(const std::string& key) const {
 }
 
 bool Section::has(const std::string& key) const {
-  Record& record = document_->records[record_];
+  Document::Record& record = document_->records[record_];
   record.known.insert(key);
   return record.node->find(key) != nullptr;
 }
 
-double Section::number(const std::string& key) const { return value(key).parsed(parse_number); }
+double Section::number(const std::string& k) const { return value(k).parsed(parse_number); }
 
-std::int64_t Section::integer(const std::string& key) const {
-  return value(key).parsed(parse_integer);
-}
+std::int64_t Section::integer(const std::string& k) const { return value(k).parsed(parse_integer); }
 
 int Section::whole(const std::string& key, int otherwise) const {
   const std::int64_t wide = integer(key, otherwise);
@@ -181,13 +176,13 @@ std::size_t Section::one_of(const std::string& key, const std::vector<std::strin
 }
 
 void Section::fail(const std::string& key, const std::string& what) const {
-  const Record& record = document_->records[record_];
+  const Document::Record& record = document_->records[record_];
   const auto* entry = record.node->find(key);
   document_->fail(entry != nullptr ? entry->line : record.line, record.full_key(key), what);
 }
 
 void Section::done() const {
-  for (const Record& record : document_->records) {
+  for (const Document::Record& record : document_->records) {
     const std::vector<std::string> known(record.known.begin(), record.known.end());
     for (const auto& entry : record.node->entries) {
       if (record.read.count(entry.key) != 0) continue;

@@ -59,7 +59,7 @@ TEST_F(ImageFiles, OrdersAFolderAsPeopleCount) {
   }
   std::filesystem::create_directory(folder_.path() / "folder.png");
   EXPECT_THAT(names(files_of_folder(folder_.path())),
-              ElementsAre("a.PGM", "a1.jpg", "a2.png", "a002b.png", "a10.png", "b1.png"));
+              ElementsAre("a1.jpg", "a2.png", "a002b.png", "a10.png", "a.PGM", "b1.png"));
   EXPECT_THAT(numbers(files_of_folder(folder_.path())), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
