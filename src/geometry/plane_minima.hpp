@@ -64,23 +64,23 @@ inline FirstOrder first_order(const View& view) {
 /// they are the plane tilted to one side and to the other.
 inline std::array<TargetPose, 2> starts(const FirstOrder& f) {
   const Vector3d sight(f.centre.x(), f.centre.y(), 1);
-  const Matrix3d Rv = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sight).matrix();
-  const Matrix2d B = Rv.topLeftCorner<2, 2>() - f.centre * Rv.block<1, 2>(2, 0);
+  const Matrix3d R_v = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sight).matrix();
+  const Matrix2d B = R_v.topLeftCorner<2, 2>() - f.centre * R_v.block<1, 2>(2, 0);
   const Matrix2d A = B.inverse() * f.slope;  // the rotation's upper left, over the depth
   const Matrix2d S = A.transpose() * A;
   const double half_gap = std::hypot((S(0, 0) - S(1, 1)) / 2, S(0, 1));
   const double inverse_depth = std::sqrt(S.trace() / 2 + half_gap);
-  const Matrix2d R22 = A / inverse_depth;
-  const Matrix2d M = Matrix2d::Identity() - R22.transpose() * R22;  // = b b^T
+  const Matrix2d R_22 = A / inverse_depth;
+  const Matrix2d M = Matrix2d::Identity() - R_22.transpose() * R_22;  // = b b^T
   const Vector2d b(std::sqrt(std::fmax(M(0, 0), 0)),
                    std::copysign(std::sqrt(std::fmax(M(1, 1), 0)), M(0, 1)));
   std::array<TargetPose, 2> poses;
   for (const int side : {0, 1}) {
     Matrix3d R;
-    R.topLeftCorner<2, 2>() = R22;
+    R.topLeftCorner<2, 2>() = R_22;
     R.block<1, 2>(2, 0) = (side == 0 ? b : -b).transpose();
     R.col(2) = R.col(0).cross(R.col(1));
-    poses[std::size_t(side)] = {nearest_rotation(Rv * R), sight / inverse_depth};
+    poses[std::size_t(side)] = {nearest_rotation(R_v * R), sight / inverse_depth};
   }
   return poses;
 }

@@ -17,8 +17,8 @@ struct Attitude {
 Eigen::Matrix3d level_from_body(const Attitude& attitude);
 
 /// Rotation that takes vectors of the tilted camera into the camera as it would be mounted on the
-/// levelled helicopter: m_level = body_R_camera^T Ry(pitch) Rx(roll) body_R_camera m.
-Eigen::Matrix3d level_camera_from_camera(const Eigen::Matrix3d& body_R_camera,
+/// levelled helicopter: m_level = body_from_camera^T Ry(pitch) Rx(roll) body_from_camera m.
+Eigen::Matrix3d level_camera_from_camera(const Eigen::Matrix3d& body_from_camera,
                                          const Attitude& attitude);
 
 }  // namespace kestrel

@@ -37,7 +37,7 @@ class Camera {
   const CameraParameters& parameters() const { return parameters_; }
 
   /// Intrinsic matrix K (without the lens).
-  Eigen::Matrix3d K() const;
+  Eigen::Matrix3d K() const;  // NOLINT(readability-identifier-naming)
 
   /// Where a point of the normalised plane appears, px, lens included; not finite beyond the lens
   /// model's monotonic range, where it would fold back into the image.

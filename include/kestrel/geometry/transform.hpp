@@ -17,8 +17,8 @@ struct Transform {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
   Transform<From, To> inverse() const {
-    const Eigen::Matrix3d Rt = rotation.transpose();
-    return {Rt, -(Rt * translation)};
+    const Eigen::Matrix3d R_transposed = rotation.transpose();
+    return {R_transposed, -(R_transposed * translation)};
   }
 };
 
