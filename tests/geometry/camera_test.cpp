@@ -181,6 +181,16 @@ TEST(Camera, InverseStaysOnTheFirstBranch) {
   EXPECT_FALSE(is_finite(camera.to_pixel({2.5, 0})));
 }
 
+// The same with the sixth power alone against the second: folds at 0.848, rises at 1.50.
+TEST(Camera, RangeCountsTheThirdRadialTerm) {
+  const Camera camera(with(Lens::PlumbBob, {-0.5, 0, 1e-3, 1e-3, 0.03}));
+  for (const double r : {0.5, 0.8, 0.83, 0.845}) {
+    const ImagePoint back = camera.to_image_point(camera.to_pixel({-0.6 * r, 0.8 * r}));
+    EXPECT_NEAR(std::hypot(back.x, back.y), r, 1e-9);
+  }
+  EXPECT_FALSE(is_finite(camera.to_pixel({2.0, 0})));
+}
+
 // A pincushion that folds far out maps points near its fold farther out than the fold itself.
 TEST(Camera, InverseFindsPointsThatAppearBeyondTheFoldRadius) {
   const Camera camera(with(Lens::PlumbBob, {0.6, -0.25, 0, 0, 0}));
