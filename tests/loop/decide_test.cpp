@@ -364,7 +364,7 @@ TEST_F(Loss, SendsOnlyWhatTheLimitsAllow) {
   const double numbers[] = {0, -1, 1e-7, 0.3, 5, 1e9, 1e300, kNan, kInf, -kInf};
   double stamp_s = 0;
   int moving = 0;
-  for (int k = 0; k < 20000; ++k) {
+  for (int k = 0; k < 5000; ++k) {
     auto measured = measured_;
     std::optional<Attitude> attitude = Attitude{};
     double step_s = kFrame;
@@ -406,7 +406,7 @@ TEST_F(Loss, SendsOnlyWhatTheLimitsAllow) {
     state_ = decision.next;
     if (std::isfinite(now_s) && std::abs(now_s) < 1e8) stamp_s = now_s;
   }
-  EXPECT_GT(moving, 5000);
+  EXPECT_GT(moving, 1000);
 }
 
 }  // namespace
