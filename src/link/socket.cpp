@@ -157,7 +157,7 @@ std::optional<Datagram> UdpSocket::receive(double timeout_s) {
   pollfd wanted{descriptor_, POLLIN, 0};
   const timespec wait = waiting_time(timeout_s);
   const int ready = ::ppoll(&wanted, 1, &wait, nullptr);
-  if (ready == 0 || (ready < 0 && errno == EINTR)) return std::nullopt;
+  if (ready == 0) return std::nullopt;
   Endpoint from;
   const ssize_t size = ready < 0 ? -1
                                  : ::recvfrom(descriptor_, buffer_.data(), buffer_.size(),

@@ -25,6 +25,7 @@ TEST(Bytes, NeverGrow) {
   EXPECT_EQ(all.first(4).size, 3u);
   EXPECT_EQ(all.after(4).size, 0u);
   EXPECT_EQ(all.after(std::size_t(-1)).size, 0u);
+  EXPECT_EQ(all.after(4).data, all.end());
   EXPECT_EQ(Bytes{}.after(1).size, 0u);
 }
 

@@ -87,7 +87,7 @@ TEST_F(CommandLinkTest, NumbersItsFramesWithoutAGap) {
 }
 
 TEST_F(CommandLinkTest, BeatsOnceASecondByTheStampsAtAnyFrameRate) {
-  for (const double rate : {7.0, 29.97, 30.0}) {
+  for (const double rate : {3.3, 7.0, 29.97, 30.0}) {
     CommandLink link(peer_.local());
     const int frames = int(30 * rate);
     int beats = 0;
@@ -114,6 +114,15 @@ TEST_F(CommandLinkTest, BeatsAtOnceAfterTheStampsJump) {
   EXPECT_TRUE(send({}, 4).has_heartbeat());
   EXPECT_TRUE(send({}, -1e300).has_heartbeat());
   EXPECT_TRUE(send({}, 1e300).has_heartbeat());
+}
+
+TEST_F(CommandLinkTest, AFrameWithoutATimeNeitherBeatsNorDisturbsTheBeat) {
+  EXPECT_FALSE(send({}, kNan).has_heartbeat());
+  EXPECT_TRUE(send({}, 1).has_heartbeat());
+  EXPECT_FALSE(send({}, kInfinity).has_heartbeat());
+  EXPECT_FALSE(send({}, kNan).has_heartbeat());
+  EXPECT_FALSE(send({}, 1.5).has_heartbeat());
+  EXPECT_TRUE(send({}, 2).has_heartbeat());
 }
 
 TEST_F(CommandLinkTest, SendsHoverForWhatIsNotFinite) {

@@ -49,6 +49,18 @@ TEST(Sequence, FrameBeforeTheFirstIsLateAndWasNotLost) {
   EXPECT_EQ(window.lost(), 0);
 }
 
+TEST(Sequence, AfterALongGapTheNumbersOfItMayStillComeLate) {
+  for (int gap = 63; gap <= 191; ++gap) {
+    SequenceWindow window;
+    for (int i = 0; i < 64; ++i) window.arrive(std::uint8_t(i));
+    EXPECT_EQ(window.arrive(std::uint8_t(64 + gap)), Arrival::New);
+    for (int back = 1; back <= 63; ++back) {
+      EXPECT_EQ(window.arrive(std::uint8_t(64 + gap - back)), Arrival::Late);
+      EXPECT_EQ(window.lost(), gap - back);
+    }
+  }
+}
+
 TEST(Sequence, AgreesWithTheTruthUnderLossReorderAndDuplication) {
   test::Random random("sequence");
   for (int run = 0; run < 50; ++run) {

@@ -108,7 +108,7 @@ TEST(Setpoint, OfAnotherFrameOrMaskIsNoVelocity) {
 
 TEST(TimeBootMs, RoundsToMilliseconds) {
   EXPECT_EQ(time_boot_ms(0), 0u);
-  EXPECT_EQ(time_boot_ms(0.29), 290u);  // 0.29 * 1000 is less than 290
+  EXPECT_EQ(time_boot_ms(1.001), 1001u);  // 1.001 * 1000 is less than 1001
   EXPECT_EQ(time_boot_ms(1.0 / 30), 33u);
   EXPECT_EQ(time_boot_ms(4294967.295), 4294967295u);
 }

@@ -96,6 +96,16 @@ TEST(Socket, SaysWhyItCannotListenOrSend) {
   }
 }
 
+TEST(Socket, AnyAddressOfIpv6LeavesIpv4Alone) {
+  if (test::loopbacks().size() < 2) GTEST_SKIP() << "no IPv6 here";
+  const UdpSocket six = UdpSocket::bound_to({"::", 0});
+  UdpSocket four = UdpSocket::bound_to({"0.0.0.0", six.local().port});
+  UdpSocket sender = UdpSocket::connected_to({"127.0.0.1", six.local().port});
+  const test::Buffer byte = {1};
+  sender.send(test::view(byte));
+  EXPECT_TRUE(four.receive(kPatience_s));
+}
+
 std::ptrdiff_t open_descriptors() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
                        std::filesystem::directory_iterator());

@@ -12,7 +12,7 @@ struct Bytes {
 
   /// All but the first `count` bytes; empty when there are no more than that.
   constexpr Bytes after(std::size_t count) const {
-    return count < size ? Bytes{data + count, size - count} : Bytes{data, 0};
+    return {data + first(count).size, size - first(count).size};
   }
 
   /// The first `count` bytes, or all when there are fewer.
