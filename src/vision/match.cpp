@@ -66,8 +66,8 @@ void MatchOptions::check() const {
 }
 
 struct Matcher::Index {
-  cv::Mat rows;  // FLANN keeps a pointer into them
-  cv::flann::Index tree;
+  cv::flann::Index tree;  // with a copy of the rows
+  int rows = 0;
 };
 
 Matcher::Matcher(const cv::Mat& descriptors, const MatchOptions& options)
@@ -75,9 +75,9 @@ Matcher::Matcher(const cv::Mat& descriptors, const MatchOptions& options)
   options.check();
   require(are_descriptors(descriptors) && descriptors.rows >= 2,
           "descriptors: must be at least two rows of 128 finite floats");
-  index_->rows = descriptors.clone();
+  index_->rows = descriptors.rows;
   const SeededOpencv seeded(options.seed);
-  index_->tree.build(index_->rows, cv::flann::KDTreeIndexParams(1));
+  index_->tree.build(descriptors, cv::flann::KDTreeIndexParams(1));
 }
 
 Matcher::~Matcher() = default;
@@ -91,7 +91,7 @@ std::vector<Match> Matcher::match(const cv::Mat& descriptors) const {
   cv::Mat squared;
   index_->tree.knnSearch(descriptors, nearest, squared, 2,
                          cv::flann::SearchParams(options_.checks));
-  std::vector<Match> best(std::size_t(index_->rows.rows), Match{-1, -1, options_.ratio});
+  std::vector<Match> best(std::size_t(index_->rows), Match{-1, -1, options_.ratio});
   for (int i = 0; i < descriptors.rows; ++i) {
     const double ratio = std::sqrt(double(squared.at<float>(i, 0)) / squared.at<float>(i, 1));
     Match& claim = best[std::size_t(nearest.at<int>(i, 0))];

@@ -67,7 +67,7 @@ std::vector<std::string> image_files(const fs::path& folder, const Keys& keys) {
   const auto at = pattern.find("%04d");
   for (auto i = number(keys, "first_frame"); i <= number(keys, "last_frame"); ++i) {
     std::array<char, 24> digits{};
-    std::snprintf(digits.data(), digits.size(), "%04lld", static_cast<long long>(i + shift));
+    std::snprintf(digits.data(), digits.size(), "%04lld", static_cast<long long>(i) + shift);
     std::string file = pattern;
     files.push_back((folder / file.replace(at, 4, digits.data())).string());
   }

@@ -46,6 +46,7 @@ const Pixel& nearest(const Keypoints& keypoints, const Pixel& to) {
 Pixel bias_px(double sigma, const PixelBox& window) {
   test::Random random("bias");
   std::vector<Pixel> centres;
+  centres.reserve(16);
   for (int i = 0; i < 16; ++i) {
     centres.push_back({30.0 + 40 * (i % 4) + random.uniform(-0.5, 0.5),
                        30.0 + 40 * (i / 4) + random.uniform(-0.5, 0.5)});  // NOLINT

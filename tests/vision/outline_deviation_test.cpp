@@ -1,10 +1,14 @@
 #include "kestrel/vision/outline_deviation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "support/random.hpp"
 #include "support/rendered_view.hpp"
@@ -56,6 +60,54 @@ TEST(OutlineDeviation, IsWhatRepeatedFitsScatterBy) {
     // 400 repeats of 8 numbers tell a standard deviation to 2 %; the fit is algebraic, not the
     // least squares of reprojection that the formula holds for: a few per cent more.
     EXPECT_NEAR(std::sqrt(scatter / predicted), 1, 0.1);
+  }
+}
+
+using Derivative = Eigen::Matrix<double, 2, 8>;
+
+/// Central differences of a point's image by the eight elements of H other than the last.
+Derivative differences(const Homography& H, const Pixel& p) {
+  Derivative J;
+  for (int k = 0; k < 8; ++k) {
+    Homography more = H;
+    Homography less = H;
+    const double step = 1e-5 * std::max(1e-3, std::abs(H.H(k / 3, k % 3)));
+    more.H(k / 3, k % 3) += step;
+    less.H(k / 3, k % 3) -= step;
+    const Pixel a = more * p;
+    const Pixel b = less * p;
+    J.col(k) << (a.u - b.u) / (2 * step), (a.v - b.v) / (2 * step);
+  }
+  return J;
+}
+
+TEST(OutlineDeviation, IsTheFormulaInOtherParameters) {
+  // Parameters of H in pixels instead of scaled ones: the corners' covariance must not care.
+  test::Random random("formula");
+  for (int i = 0; i < 10; ++i) {
+    const test::Motion motion{random.uniform(0.6, 1.6), random.uniform(-3, 3),
+                              random.uniform(0.2, 0.9), random.uniform(0, 3)};
+    const Homography truth = test::moved(motion, {70, 50}, {random.uniform(50, 400), 90});
+    const auto pairs = noisy(grid(truth, 0.1, 0.8), 1.5, random);
+    const auto H = fit_homography(pairs);
+    ASSERT_TRUE(H);
+    Eigen::MatrixXd A(60, 8);
+    double residuals = 0;
+    for (Eigen::Index k = 0; k < 30; ++k) {
+      const PixelPair& pair = pairs[std::size_t(k)];
+      A.middleRows<2>(2 * k) = differences(*H, pair.in_template);
+      residuals += std::pow(distance(*H * pair.in_template, pair.in_image), 2);
+    }
+    const Eigen::VectorXd size = A.colwise().norm();  // pixels make a matrix of unlike columns
+    const Eigen::MatrixXd scaled = A * size.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd covariance = (scaled.transpose() * scaled).inverse();
+    double sum = 0;
+    for (const Pixel& corner : template_corners(kWidth, kHeight)) {
+      const Eigen::MatrixXd J = differences(*H, corner) * size.cwiseInverse().asDiagonal();
+      sum += (J * covariance * J.transpose()).trace();
+    }
+    const double expected = std::sqrt(residuals / (60 - 8) * sum / 4);
+    EXPECT_NEAR(outline_deviation_px(*H, pairs, kWidth, kHeight) / expected, 1, 1e-4);
   }
 }
 

@@ -48,6 +48,7 @@ std::vector<PixelPair> pairs_of(const Homography& H, int inliers, int outliers, 
 
 std::vector<PixelPair> chosen(const std::vector<PixelPair>& pairs, const std::vector<int>& which) {
   std::vector<PixelPair> result;
+  result.reserve(which.size());
   for (const int i : which) result.push_back(pairs[std::size_t(i)]);
   return result;
 }
