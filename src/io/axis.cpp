@@ -14,8 +14,8 @@ bool has_place(double value, Spacing spacing) {
 }
 
 Range widened(const Range& range, double margin) {
-  // Numbers beyond a quarter of the largest double would overflow a difference.
-  const double largest = std::numeric_limits<double>::max() / 4;
+  // Of numbers beyond this a difference or a margin would overflow.
+  const double largest = std::numeric_limits<double>::max() / 1e4;
   const double low = std::clamp(range.low, -largest, largest);
   const double high = std::clamp(range.high, -largest, largest);
   const double length = high - low;
@@ -66,12 +66,14 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int count) {
   return out;
 }
 
-// The step 1, 2 or 5 times a power of ten that is at least `least`.
-double round_step(double least) {
-  const double power = std::pow(10, std::floor(std::log10(least)));
-  for (const double mantissa : {1., 2., 5.})
-    if (mantissa * power >= least * (1 - 1e-9)) return mantissa * power;
-  return 10 * power;
+// The step 1, 2 or 5 times a power of ten nearest (by ratio) to the one asked for.
+double round_step(double wanted) {
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  const double mantissa = wanted / power;
+  return power * (mantissa < std::sqrt(2)    ? 1
+                  : mantissa < std::sqrt(10) ? 2
+                  : mantissa < std::sqrt(50) ? 5
+                                             : 10);
 }
 
 }  // namespace
@@ -88,6 +90,7 @@ Range range_of(const std::vector<double>& values, Spacing spacing, double margin
 }
 
 std::vector<Tick> ticks(const Range& range, Spacing spacing, int count) {
+  if (!(range.low < range.high) || !std::isfinite(range.high - range.low)) return {};
   if (spacing == Spacing::Logarithmic) return logarithmic_ticks(range, count);
   const double step = round_step((range.high - range.low) / std::max(count, 1));
   const int decimals = std::max(0, -int(std::floor(std::log10(step) + 1e-9)));

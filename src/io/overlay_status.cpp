@@ -81,7 +81,8 @@ void draw(const StatusText& status, cv::Mat strip) {
     y += status.line_height();
     int x = kMargin;
     for (const std::string& group : groups(line)) {
-      const bool stands_out = group.rfind("LOST", 0) == 0 || group == "HOVER" || group == "DECAY";
+      const bool stands_out =
+          group.rfind("LOST", 0) == 0 || group == "HOLD" || group == "DECAY" || group == "HOVER";
       const cv::Scalar colour = stands_out         ? cv::Scalar(80, 130, 255)
                                 : group == "SERVO" ? cv::Scalar(120, 225, 120)
                                                    : cv::Scalar(235, 235, 235);

@@ -20,7 +20,7 @@ struct StatusText {
 /// The words (groups parted by three spaces) on as few lines as keep them readable.
 StatusText fitted(const std::string& words, int width);
 
-/// Draws the lines into the strip, light on dark; LOST and HOVER stand out.
+/// Draws the lines into the strip, light on dark; what is not servoing stands out.
 void draw(const StatusText& status, cv::Mat strip);
 
 }  // namespace kestrel

@@ -34,8 +34,9 @@ tr:last-child>*{border-bottom:0}
 td.n{text-align:right;font-variant-numeric:tabular-nums;font-weight:600;padding-left:12px}
 td.u{color:var(--soft);padding-left:6px;width:4.5em;white-space:nowrap}
 video{display:block;width:100%;border-radius:5px;background:#000}
-.plots{display:grid;gap:14px;grid-template-columns:repeat(auto-fit,minmax(min(100%,500px),1fr))}
 figure{margin:0}
+.plots{columns:2 470px;column-gap:14px}
+.plots figure{margin-bottom:14px;break-inside:avoid}
 .plots svg{display:block;width:100%;height:auto}
 .sheet{display:grid;gap:12px;grid-template-columns:repeat(auto-fill,minmax(min(100%,340px),1fr))}
 .sheet img{display:block;width:100%;height:auto;border-radius:4px}
@@ -46,7 +47,7 @@ footer{color:var(--soft);font-size:.87rem;padding-top:26px;padding-bottom:40px}
 @media(max-width:560px){header,main,footer{padding-left:12px;padding-right:12px}.card{padding:8px}}
 @media print{:root{--page:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#ccc}
 body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}video{display:none}
-pre{white-space:pre-wrap}.plots{grid-template-columns:1fr 1fr}.sheet{grid-template-columns:1fr 1fr 1fr}}
+pre{white-space:pre-wrap}.plots{columns:2}.sheet{grid-template-columns:1fr 1fr 1fr}}
 )css";
 
 }  // namespace kestrel

@@ -92,13 +92,11 @@ std::string window(const LogFile& log) {
 
 std::vector<ReportSection> track_sections(const LogFile& log, const RunView& view) {
   return {{"What was seen",
-           "The path of the template's four corners through the image, and in which frames the "
-           "tracker had an answer.",
-           {trajectories(log, view), strip(log)}},
-          {"How well it was seen",
-           "Keypoints of the processed window, those that match the template, and those that agree "
-           "on one homography.",
-           {counts(log), keypoints(log), trials(log), window(log)}}};
+           "The path of the template's four corners through the image, in which frames the tracker "
+           "had an answer, and what it rests on: keypoints of the processed window, those that "
+           "match the template, those that agree on one homography.",
+           {trajectories(log, view), strip(log), counts(log), keypoints(log), trials(log),
+            window(log)}}};
 }
 
 }  // namespace kestrel

@@ -15,7 +15,7 @@ namespace kestrel {
 
 /// What is drawn besides what was seen.
 struct OverlayOptions {
-  int max_lines = 60;                                // of the matches that are joined
+  int max_lines = 40;                                // of the matches that are joined
   std::optional<std::array<Pixel, 4>> goal_corners;  // where the corners are wanted, px
   std::optional<FailsafeCommand> sent;               // what was commanded, and on what ground
 };
