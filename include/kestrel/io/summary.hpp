@@ -32,6 +32,9 @@ class Summary {
   void add(const std::string& name, const std::string& value);
   void add(const std::string& name, const char* value);
 
+  /// Takes over an item of another summary, into this one's present section.
+  void add(const SummaryItem& item) { append(item.name, item.value, item.unit); }
+
   const std::vector<SummaryItem>& items() const { return items_; }
 
  private:

@@ -1,0 +1,155 @@
+#include "chain.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "kestrel/io/overlay.hpp"
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace kestrel::app {
+namespace {
+
+/// Waits until a frame of a recording is due on a clock that started with its first frame.
+class Pacer {
+ public:
+  explicit Pacer(Pace pace) : pace_(pace) {}
+  void wait_for(double stamp_s) {
+    if (pace_ == Pace::AsFastAsPossible) return;
+    if (!started_) {
+      started_ = true;
+      offset_s_ = monotonic_s() - stamp_s;
+    }
+    const double wait_s = stamp_s + offset_s_ - monotonic_s();
+    if (wait_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+  }
+
+ private:
+  Pace pace_;
+  bool started_ = false;
+  double offset_s_ = 0;
+};
+
+/// A frame of the run is worse the less is known: lost frames first, then large reprojection.
+double badness(const Step& step) {
+  if (!step.track.found()) return 1e6;
+  return step.pose ? step.pose->reprojection_px : 1e3;
+}
+
+/// The fold over the frames and what it carries.
+class Fold {
+ public:
+  Fold(const Chain& chain, const Watch& watch, Frame first)
+      : chain_(chain),
+        watch_(watch),
+        frame_(std::move(first)),
+        pacer_(chain.pace),
+        progress_(chain.source.frame_count()),
+        state_(start(chain.model, frame_, chain.task)) {
+    drawn_.goal_corners = goal_corners(chain.model, chain.task);
+  }
+
+  /// Takes the frame down the chain, then records it; false when the run has come to its end.
+  bool frame() {
+    pacer_.wait_for(frame_.stamp_s);
+    const double start_s = monotonic_s();
+    Step now = step(chain_.model, frame_, state_, chain_.task);
+    chain_.sink.send(now.decision.command, frame_.stamp_s);
+    const double chain_ms = (monotonic_s() - start_s) * 1e3;
+    LogRow row = log_row(frame_, chain_.model, now);
+    const auto reason = watch_(frame_, now, row);
+    drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
+    const cv::Mat picture = overlay(frame_, chain_.model, now.track, drawn_);
+    const bool is_open =
+        chain_.recorder.record(row, picture, badness(now), {source_ms_, chain_ms, 0});
+    count(now);
+    progress_.step(end_.frames, name(now.decision.state));
+    state_ = now.next;
+    end_.last = std::move(now);
+    if (reason) end_.reason = *reason;
+    if (!is_open) end_.reason = "the window was closed";
+    if (interrupted()) end_.reason = "interrupted";
+    return end_.reason.empty();
+  }
+
+  /// Fetches the next frame; false at the end of the source.
+  bool next() {
+    const double ask_s = monotonic_s();
+    std::optional<Frame> next = chain_.source.next();
+    source_ms_ = (monotonic_s() - ask_s) * 1e3;
+    const auto& skipped = chain_.source.skipped();
+    for (; told_ < skipped.size(); ++told_) fmt::print(stderr, "skipped: {}\n", skipped[told_]);
+    if (next) frame_ = std::move(*next);
+    if (!next) end_.reason = "end of the frames";
+    return next.has_value();
+  }
+
+  void broke(const std::string& why) {
+    end_.broken = true;
+    end_.reason = why;
+  }
+
+  /// Hover is the last word, whatever happened.
+  ChainEnd end() {
+    chain_.sink.send(VelocityCommand::hover(), frame_.stamp_s);
+    end_.skipped = chain_.source.skipped();
+    return end_;
+  }
+
+ private:
+  void count(const Step& now) {
+    ++end_.frames;
+    end_.found += now.track.found() ? 1 : 0;
+    end_.servoed += now.decision.servo ? 1 : 0;
+  }
+
+  const Chain& chain_;
+  const Watch& watch_;
+  Frame frame_;
+  Pacer pacer_;
+  Progress progress_;
+  OverlayOptions drawn_;
+  LoopState state_;
+  ChainEnd end_;
+  double source_ms_ = 0;
+  std::size_t told_ = 0;
+};
+
+}  // namespace
+
+std::array<Pixel, 4> goal_corners(const Template& model, const Task& task) {
+  const auto points =
+      corners_in_target({model.width(), model.height(), task.target_width_m, task.target_height_m});
+  std::array<Pixel, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d p = task.goal * points[i];
+    corners[i] = task.camera.to_pixel({p.x() / p.z(), p.y() / p.z()});
+  }
+  return corners;
+}
+
+ChainEnd run_chain(const Chain& chain, Frame frame, const Watch& watch) {
+  Fold fold(chain, watch, std::move(frame));
+  try {
+    while (fold.frame() && fold.next()) {
+    }
+  } catch (const std::exception& error) {
+    fold.broke(error.what());
+  }
+  return fold.end();
+}
+
+void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink) {
+  const double share = end.frames > 0 ? 100.0 / double(end.frames) : 0;
+  summary.add("frames", end.frames);
+  summary.add("frames skipped", std::int64_t(end.skipped.size()));
+  summary.add("found", double(end.found) * share, "%");
+  summary.add("servoed", double(end.servoed) * share, "%");
+  summary.add("commands not sent", std::int64_t(sink.failures()));
+  summary.add("ended by", end.reason);
+}
+
+}  // namespace kestrel::app

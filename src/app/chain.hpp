@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kestrel/io/run_log.hpp"
+#include "kestrel/loop/step.hpp"
+
+#include "arguments.hpp"
+#include "run_recorder.hpp"
+
+namespace kestrel::app {
+
+/// Everything one run of the chain needs.
+struct Chain {
+  FrameSource& source;
+  CommandSink& sink;
+  const Template& model;
+  const Task& task;
+  RunRecorder& recorder;
+  Pace pace = Pace::AsFastAsPossible;
+};
+
+/// How a run ended.
+struct ChainEnd {
+  std::string reason;   // for a human
+  bool broken = false;  // the source failed in flight
+  std::int64_t frames = 0;
+  std::int64_t found = 0;
+  std::int64_t servoed = 0;  // frames in which the law had an answer
+  std::vector<std::string> skipped;
+  Step last;
+};
+
+/// Looks at each step: may add to the row, and says why the run should end, if it should.
+using Watch = std::function<std::optional<std::string>(const Frame&, const Step&, LogRow&)>;
+
+/// Folds step() over the frames, the first of which is given: send, log, draw, until the source
+/// ends, the watch ends it, the window is closed or Ctrl-C. The last command sent is hover,
+/// whatever happened; a source that breaks ends the run, it does not throw.
+ChainEnd run_chain(const Chain& chain, Frame frame, const Watch& watch);
+
+/// The corners of the template where the goal wants them, px.
+std::array<Pixel, 4> goal_corners(const Template& model, const Task& task);
+
+/// How a run of the chain ended, as lines of a summary.
+void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink);
+
+}  // namespace kestrel::app

@@ -1,0 +1,32 @@
+#include "progress.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace kestrel::app {
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Progress::Progress(std::optional<std::int64_t> total)
+    : total_(total), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (on_terminal_ && last_s_ >= 0) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress::step(std::int64_t done, const std::string& what) {
+  if (!on_terminal_) return;
+  const double now = monotonic_s();
+  if (last_s_ >= 0 && now - last_s_ < 0.1) return;
+  last_s_ = now;
+  const std::string of = total_ ? fmt::format(" of {}", *total_) : "";
+  fmt::print(stderr, "\r\x1b[Kframe {}{}  {}", done, of, what);
+  std::fflush(stderr);
+}
+
+}  // namespace kestrel::app

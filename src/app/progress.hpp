@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace kestrel::app {
+
+/// One line on the terminal that tells how far a long job is; silent when stderr is no terminal.
+class Progress {
+ public:
+  /// total: how many steps there are; empty when nobody knows.
+  explicit Progress(std::optional<std::int64_t> total);
+  /// Clears the line.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Redraws the line, ten times a second at most. what: a word on the state.
+  void step(std::int64_t done, const std::string& what);
+
+ private:
+  std::optional<std::int64_t> total_;
+  bool on_terminal_;
+  double last_s_ = -1;
+};
+
+/// Seconds on a clock that only goes forward.
+double monotonic_s();
+
+}  // namespace kestrel::app

@@ -1,0 +1,93 @@
+#include "run_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "kestrel/io/csv.hpp"
+#include "kestrel/io/run_folder.hpp"
+
+#include "progress.hpp"
+
+namespace kestrel::app {
+namespace {
+
+constexpr int kEvenPictures = 6;
+constexpr int kWorstPictures = 3;
+
+/// The value below which a share of the values lies.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nan("");
+  const auto place = std::size_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(place), values.end());
+  return values[place];
+}
+
+const std::vector<ReportFile>& file_words() {
+  static const std::vector<ReportFile> words = {
+      {"run.csv", "one row a frame: what was seen, decided and sent"},
+      {"timing.csv", "processing times of each frame, ms"},
+      {"run.mp4", "annotated video"},
+      {"run.avi", "annotated video"},
+      {"summary.json", "the table at the top, for programs"},
+      {"commands.csv", "the commands as the receiver got them"},
+      {"trajectory.tum", "true path of the helicopter: time, position, quaternion (NED)"},
+      {"configuration.yaml", "the task as it was read"},
+      {"report.html", "this page"},
+  };
+  return words;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const RecorderOptions& options)
+    : options_(options),
+      folder_(create_run_folder(options.folder)),
+      log_(folder_ / "run.csv", options.extra_columns),
+      timing_(folder_ / "timing.csv", {"source", "chain", "record"}),
+      sheet_(kEvenPictures, kWorstPictures) {
+  if (options.video) video_ = std::make_unique<VideoWriter>(folder_ / "run.mp4", options.rate_hz);
+  if (!options.configuration.empty()) {
+    write_text(folder_ / options.configuration_name, options.configuration);
+  }
+}
+
+bool RunRecorder::record(const LogRow& row, const cv::Mat& picture, double badness,
+                         StageTimes times) {
+  const double start_s = monotonic_s();
+  log_.write(row);
+  if (video_) video_->write(picture);
+  sheet_.offer(picture, fmt::format("frame {}", row.frame), badness);
+  bool goes_on = true;
+  if (options_.display) {
+    if (!window_) window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel");
+    goes_on = window_->show(picture);
+  }
+  times.record_ms += (monotonic_s() - start_s) * 1e3;
+  timing_.write(row.frame, {times.source_ms, times.chain_ms, times.record_ms});
+  chain_ms_.push_back(times.chain_ms);
+  return goes_on;
+}
+
+void RunRecorder::add_times(Summary& summary) const {
+  if (chain_ms_.empty()) return;
+  summary.add("chain time, median", quantile(chain_ms_, 0.5), "ms");
+  summary.add("chain time, 95 %", quantile(chain_ms_, 0.95), "ms");
+  summary.add("chain time, maximum", quantile(chain_ms_, 1.0), "ms");
+}
+
+void RunRecorder::finish(Report report) {
+  if (video_) {
+    video_->close();
+    if (video_->frames() > 0) report.video = video_->path().filename().string();
+  }
+  write_summary(folder_ / "summary.json", report.summary);
+  report.pictures = sheet_.pictures();
+  report.configuration = options_.configuration;
+  write_text(folder_ / "report.html", "");  // so that the page lists itself
+  report.files = files_of(folder_, file_words());
+  write_text(folder_ / "report.html", report_html(report));
+}
+
+}  // namespace kestrel::app

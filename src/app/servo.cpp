@@ -1,0 +1,57 @@
+#include "servo.hpp"
+
+#include "kestrel/io/camera_file.hpp"
+
+#include "chain.hpp"
+#include "interrupt.hpp"
+#include "sinks.hpp"
+#include "verbs.hpp"
+
+namespace kestrel::app {
+namespace {
+
+Summary summarise(const ChainEnd& end, const CommandSink& sink) {
+  Summary summary;
+  summary.begin_section("chain");
+  add_chain(summary, end, sink);
+  if (end.last.decision.servo) {
+    summary.add("final feature error", end.last.decision.servo->error.norm());
+  }
+  return summary;
+}
+
+}  // namespace
+
+RunResult servo(const ServoArguments& a) {
+  Section file = Section::load(a.task);
+  Experiment experiment = read_experiment(file);
+  file.has("simulation");  // another verb's section
+  file.done();
+  if (!a.source.empty()) override_source(experiment, a.source);
+  if (!a.sink.empty()) experiment.sink = a.sink;
+
+  const auto source = open_source(experiment);
+  const auto sink = open_sink(experiment.sink);
+  const Frame first = first_frame(*source, experiment.source);
+  require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
+                     experiment.camera_file.value_or(a.task));
+  const Template model = learn_template(experiment, first);
+  RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
+  const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
+  const ChainEnd end =
+      run_chain({*source, *sink, model, experiment.task, recorder, a.pace}, first, watch);
+  RunResult result{recorder.folder(), summarise(end, *sink), end.broken ? 1 : 0};
+  recorder.add_times(result.summary);
+  finish_run(recorder, model, experiment.task, end, result.summary,
+             "Servo run: " + a.task.stem().string(), servo_sections);
+  if (interrupted()) result.exit_code = kInterrupted;
+  return result;
+}
+
+int run(const ServoArguments& arguments) {
+  const RunResult result = servo(arguments);
+  print_result(result);
+  return result.exit_code;
+}
+
+}  // namespace kestrel::app

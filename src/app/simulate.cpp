@@ -1,0 +1,143 @@
+#include "simulate.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "kestrel/io/csv.hpp"
+#include "kestrel/sim/reference.hpp"
+
+#include "chain.hpp"
+#include "interrupt.hpp"
+#include "simulation_file.hpp"
+#include "sinks.hpp"
+#include "task_setup.hpp"
+#include "verbs.hpp"
+
+namespace kestrel::app {
+namespace {
+
+/// The pose of the helicopter from which the levelled camera sees the target as the goal wants it.
+Transform<frame::World, frame::Body> goal_in_world(const Task& task, const WorldOptions& world) {
+  return world.world_from_target * task.goal.inverse() * task.body_from_camera.inverse();
+}
+
+double yaw_of(const Eigen::Matrix3d& world_R_body) {
+  return std::atan2(world_R_body(1, 0), world_R_body(0, 0));
+}
+
+/// Where the flight is against its goal, by the truth of the world.
+FlightSample sample(const World& world, const Frame& frame, bool seen,
+                    const Transform<frame::World, frame::Body>& goal) {
+  FlightSample s;
+  s.stamp_s = frame.stamp_s;
+  s.position_error_m = (world.state().position_m - goal.translation).norm();
+  s.heading_error_rad = wrap_angle(world.state().yaw - yaw_of(goal.rotation));
+  s.target_distance_m = world.camera_from_target().inverse().translation.z() * -1;
+  s.seen = seen;
+  return s;
+}
+
+/// Values of truth_columns(), in their order.
+std::vector<double> truth(const World& world, const FlightSample& s,
+                          const Transform<frame::World, frame::Body>& goal) {
+  const HelicopterState& h = world.state();
+  const Eigen::Matrix3d turn = goal.rotation.transpose() * pose(h).rotation;
+  return {h.position_m.x(), h.position_m.y(),  h.position_m.z(),   h.roll,
+          h.pitch,          wrap_angle(h.yaw), s.position_error_m, rotation_vector(turn).norm()};
+}
+
+/// One line of a TUM trajectory: time, position, quaternion x y z w of Body in World.
+std::string tum_line(double stamp_s, const Transform<frame::World, frame::Body>& pose) {
+  const Eigen::Vector3d& p = pose.translation;
+  const Eigen::Vector3d theta_u = rotation_vector(pose.rotation);
+  const double angle = theta_u.norm();
+  const Eigen::Vector3d v =
+      angle > 0 ? Eigen::Vector3d(theta_u / angle * std::sin(angle / 2)) : Eigen::Vector3d::Zero();
+  return fmt::format("{} {} {} {} {} {} {} {}", number(stamp_s), number(p.x()), number(p.y()),
+                     number(p.z()), number(v.x()), number(v.y()), number(v.z()),
+                     number(std::cos(angle / 2)));
+}
+
+Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink& sink) {
+  Summary summary;
+  summary.begin_section("flight");
+  summary.add("result", name(m.end));
+  summary.add("settled after", m.settled_s.value_or(std::nan("")), "s");
+  summary.add("final position error", m.final_position_m, "m");
+  summary.add("final heading error", m.final_heading_rad * 180 / M_PI, "deg");
+  summary.add("target seen", m.seen_share * 100, "%");
+  summary.add("longest time unseen", m.longest_unseen_s, "s");
+  summary.begin_section("chain");
+  add_chain(summary, end, sink);
+  return summary;
+}
+
+/// The task as the simulator can hold it: the template learned from the view at the goal, so its
+/// size and place on the target are known to the pixel.
+struct Prepared {
+  Task task;
+  Template model;
+};
+
+Prepared prepare(Task task, const Scene& scene) {
+  const Reference reference = goal_view(scene, task.camera, task.goal);
+  task.target_width_m = reference.width_m;
+  task.target_height_m = reference.height_m;
+  task.goal = task.goal * reference.target_from_template;
+  return {task, Template(reference.image, reference.box, task.track.sift, task.track.match)};
+}
+
+}  // namespace
+
+RunResult simulate(const SimulateArguments& a) {
+  Section file = Section::load(a.task);
+  Experiment experiment = read_experiment(file);
+  Simulation simulation = read_simulation(file.child("simulation"));
+  file.done();
+  simulation.world.camera = experiment.task.camera;
+  simulation.world.body_from_camera = experiment.task.body_from_camera;
+  simulation.wall.poster_width_m = experiment.task.target_width_m;
+  simulation.wall.poster_height_m = experiment.task.target_height_m;
+  if (a.seed) simulation.world.seed = std::uint64_t(*a.seed);
+  if (a.duration_s) {
+    simulation.world.frames = std::int64_t(std::ceil(*a.duration_s * simulation.world.rate_hz));
+  }
+  const Scene scene = scene_of(simulation);
+  World world(scene, simulation.world);
+  const auto goal = goal_in_world(experiment.task, simulation.world);
+  const Prepared prepared = prepare(experiment.task, scene);
+  const auto outside = open_sink(a.sink);
+  TeeSink sink(world, *outside);
+  RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
+  LineFile trajectory(recorder.folder() / "trajectory.tum");
+
+  std::vector<FlightSample> flight;
+  const auto watch = [&](const Frame& frame, const Step& step,
+                         LogRow& row) -> std::optional<std::string> {
+    flight.push_back(sample(world, frame, step.track.found(), goal));
+    row.extra = truth(world, flight.back(), goal);
+    trajectory.write(tum_line(frame.stamp_s, pose(world.state())));
+    const auto end = ended(flight, simulation.goal);
+    if (!end) return std::nullopt;
+    return name(*end);
+  };
+  const ChainEnd end =
+      run_chain({world, sink, prepared.model, prepared.task, recorder}, *world.next(), watch);
+  const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
+  RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
+  recorder.add_times(result.summary);
+  finish_run(recorder, prepared.model, prepared.task, end, result.summary,
+             "Simulated flight: " + a.task.stem().string(), simulate_sections);
+  if (end.broken || metrics.end != FlightEnd::Converged) result.exit_code = 1;
+  if (interrupted()) result.exit_code = kInterrupted;
+  return result;
+}
+
+int run(const SimulateArguments& arguments) {
+  const RunResult result = simulate(arguments);
+  print_result(result);
+  return result.exit_code;
+}
+
+}  // namespace kestrel::app

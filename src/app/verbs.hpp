@@ -1,0 +1,19 @@
+#pragma once
+
+#include "arguments.hpp"
+
+/// One function for each verb of the command line. They print on stdout what was asked for and on
+/// stderr what goes on, and return the exit code; a human's mistake or a broken source throws.
+namespace kestrel::app {
+
+/// Exit code after Ctrl-C or SIGTERM: what was written by then is complete.
+constexpr int kInterrupted = 130;
+
+int run(const TrackArguments& arguments);
+int run(const ServoArguments& arguments);
+int run(const SimulateArguments& arguments);
+int run(const ReceiveArguments& arguments);
+int run(const CheckArguments& arguments);
+int run(const DemoArguments& arguments);
+
+}  // namespace kestrel::app
