@@ -19,6 +19,7 @@ TrackJob described(const std::filesystem::path& file) {
 }
 
 bool is_live(const std::string& input) {
+  if (input == "dc1394") return true;
   for (const char* kind : {"camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
     if (input.rfind(kind, 0) == 0) return true;
   }
