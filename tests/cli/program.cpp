@@ -29,6 +29,12 @@ void redirect(int descriptor, const char* file, int flags) {
   close(opened);
 }
 
+/// "NAME=value" into the environment.
+void set(const std::string& setting) {
+  const auto equals = setting.find('=');
+  setenv(setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str(), 1);
+}
+
 }  // namespace
 
 Program::Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
@@ -52,7 +58,7 @@ Program::Program(const std::vector<std::string>& arguments, const std::filesyste
     redirect(STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
     redirect(STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
     if (chdir(where.c_str()) != 0) _exit(126);
-    for (const std::string& setting : environment) putenv(strdup(setting.c_str()));
+    for (const std::string& setting : environment) set(setting);
     execv(argv[0], argv.data());
     _exit(127);
   }

@@ -40,7 +40,7 @@ RenderedSequence rendered_sequence(const std::filesystem::path& folder, int fram
     std::snprintf(name, sizeof name, "%04d.png", k);
     cv::imwrite((folder / name).string(), image, {cv::IMWRITE_PNG_COMPRESSION, 1});
     truth << k;
-    for (const cv::Vec3d corner :
+    for (const cv::Vec3d& corner :
          {cv::Vec3d(0, 0, 1), cv::Vec3d(kSide - 1, 0, 1), cv::Vec3d(kSide - 1, kSide - 1, 1),
           cv::Vec3d(0, kSide - 1, 1)}) {
       const cv::Vec3d p = H * corner;

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -57,7 +57,7 @@ TEST(CsvFields, AreOneMoreThanCommas) {
 }
 
 TEST(LineFile, HasEachLineOnceWritten) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   LineFile file(folder / "a.csv");
   file.write("one");
   EXPECT_EQ(content(folder / "a.csv"), "one\n");  // the file is still open
@@ -68,14 +68,14 @@ TEST(LineFile, HasEachLineOnceWritten) {
 TEST(LineFile, TellsPathCauseAndRemedy) {
   EXPECT_THAT(message("/dev/full"),
               AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("free some")));
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   EXPECT_THAT(message(folder / "missing/a.csv"),
               AllOf(HasSubstr("missing/a.csv"), HasSubstr("create its folder")));
   EXPECT_THAT(message(folder.path()), HasSubstr("give the name of a file"));
 }
 
 TEST(WriteText, WritesAllOrThrows) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   const std::string text(100000, 'x');
   write_text(folder / "a.txt", text);
   EXPECT_EQ(content(folder / "a.txt"), text);

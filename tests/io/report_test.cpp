@@ -12,7 +12,7 @@
 
 #include "support/log_rows.hpp"
 #include "support/markup_check.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -97,7 +97,7 @@ TEST(ReportHtml, LinksAVideoThatBrowsersDoNotPlay) {
 }
 
 TEST(FilesOf, ListsWhatIsThere) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "log.csv") << "12345";
   std::ofstream(folder / "notes.txt") << std::string(2500, 'x');
   std::filesystem::create_directory(folder / "frames");

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(RunFolder, TakesTheNextFreeNumber) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   EXPECT_EQ(create_run_folder(folder / "runs/comic"), folder / "runs/comic");
   EXPECT_EQ(create_run_folder(folder / "runs/comic"), folder / "runs/comic-2");
   EXPECT_EQ(create_run_folder(folder / "runs/comic/"), folder / "runs/comic-3");
@@ -25,14 +25,14 @@ TEST(RunFolder, TakesTheNextFreeNumber) {
 }
 
 TEST(RunFolder, NeverTakesWhatIsThere) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "comic") << "a file";
   fs::create_symlink(folder / "nowhere", folder / "comic-2");
   EXPECT_EQ(create_run_folder(folder / "comic"), folder / "comic-3");
 }
 
 TEST(RunFolder, IsNeverGivenTwice) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   std::vector<std::vector<fs::path>> made(4);
   std::vector<std::thread> threads;
   for (auto& own : made)
@@ -46,7 +46,7 @@ TEST(RunFolder, IsNeverGivenTwice) {
 }
 
 TEST(RunFolder, TellsWhatToDo) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "file") << "not a folder";
   for (const fs::path& path : {folder / "file/run", fs::path("/proc/run"), fs::path()}) {
     try {

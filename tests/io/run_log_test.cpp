@@ -13,7 +13,7 @@
 
 #include "support/log_rows.hpp"
 #include "support/random.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -98,7 +98,7 @@ void expect_same_decided(const LogRow& a, const LogRow& b) {
 }
 
 TEST(RunLog, ComesBackToTheLastBit) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   test::Random random("run_log");
   std::vector<LogRow> rows;
   for (int i = 0; i < 300; ++i) rows.push_back(test::any_row(random, 2));
@@ -119,7 +119,7 @@ TEST(RunLog, ComesBackToTheLastBit) {
 }
 
 TEST(RunLog, HasOneFieldForEachColumn) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   test::Random random("run_log.fields");
   RunLog log(folder / "log.csv", {"north_m"});
   log.write(LogRow{0, 0, {}, {}, 0, 0, 0, 0, {}, {}, {}, {}, {}, {}, {std::nan("")}});
@@ -138,7 +138,7 @@ TEST(RunLog, NamesEveryColumnOnce) {
 }
 
 TEST(RunLog, RefusesExtraColumnsThatDoNotFit) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   for (const char* column : {"frame", "", "a,b", "Speed", "wind speed"})
     EXPECT_THROW(RunLog(folder / "log.csv", {column}), std::invalid_argument) << column;
   EXPECT_THROW(RunLog(folder / "log.csv", {"one", "one"}), std::invalid_argument);
@@ -147,7 +147,7 @@ TEST(RunLog, RefusesExtraColumnsThatDoNotFit) {
 }
 
 TEST(RunLog, KeepsAllRowsWhenTheProgramIsKilled) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   const pid_t child = fork();
   if (child == 0) {
     test::Random random("run_log.killed");
@@ -171,7 +171,7 @@ TEST(RunLog, SaysThatTheDiskIsFull) {
 }
 
 TEST(ReadLog, DropsALineWithoutEnd) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   test::Random random("run_log.interrupted");
   {
     RunLog log(folder / "log.csv", {"north_m"});
@@ -188,7 +188,7 @@ TEST(ReadLog, DropsALineWithoutEnd) {
 }
 
 TEST(ReadLog, TellsFileLineAndColumn) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   RunLog(folder / "log.csv").write(LogRow{});
   const std::string whole = content(folder / "log.csv");
   const auto damaged = [&](const std::string& from, const std::string& to) {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -80,7 +80,7 @@ TEST(TextTable, HeadsSections) {
 }
 
 TEST(WriteSummary, WritesTheJson) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   write_summary(folder / "summary.json", example());
   std::ifstream file(folder / "summary.json");
   EXPECT_EQ(nlohmann::json::parse(file), nlohmann::json::parse(json(example())));

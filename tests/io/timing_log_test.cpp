@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
 
 TEST(TimingLog, KeepsMicroseconds) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   TimingLog log(folder / "timing.csv", {"track", "pose"});
   log.write(3, {12.3456, std::nan("")});
   std::ostringstream text;
@@ -21,7 +21,7 @@ TEST(TimingLog, KeepsMicroseconds) {
 }
 
 TEST(TimingLog, RefusesAnotherNumberOfTimes) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   TimingLog log(folder / "timing.csv", {"track"});
   EXPECT_THROW(log.write(0, {1, 2}), std::invalid_argument);
   EXPECT_THROW(log.write(0, {}), std::invalid_argument);

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "support/temporary_folder.hpp"
+#include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
@@ -33,7 +33,7 @@ std::string opening_error(const std::filesystem::path& path) {
 }
 
 TEST(VideoWriter, IsReadBack) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   VideoWriter video(folder / "a.mp4", 25);
   for (int i = 0; i < 12; ++i)
     video.write(cv::Mat(60, 81, CV_8UC3, cv::Scalar::all(20 * i)));  // an odd width
@@ -50,7 +50,7 @@ TEST(VideoWriter, IsReadBack) {
 }
 
 TEST(VideoWriter, PutsOtherSizesBetweenBars) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   VideoWriter video(folder / "a.mp4", 25);
   const cv::Mat wide(60, 120, CV_8UC3, cv::Scalar::all(200));
   const cv::Mat square(240, 240, CV_8UC1, cv::Scalar(200));
@@ -67,20 +67,20 @@ TEST(VideoWriter, PutsOtherSizesBetweenBars) {
 }
 
 TEST(VideoWriter, ClosesWhenItDies) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   { VideoWriter(folder / "a.mp4", 25).write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(9))); }
   EXPECT_EQ(frames_of(folder / "a.mp4").size(), 1u);
 }
 
 TEST(VideoWriter, WithoutFramesLeavesNoFile) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   VideoWriter video(folder / "a.mp4", 25);
   video.close();
   EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4"));
 }
 
 TEST(VideoWriter, TellsWhatIsWrongWithThePath) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   EXPECT_THAT(opening_error(folder / "missing/a.mp4"),
               AllOf(HasSubstr("missing/a.mp4"), HasSubstr("create its folder")));
   EXPECT_THAT(opening_error("/dev/full"), HasSubstr("No space left"));
@@ -89,7 +89,7 @@ TEST(VideoWriter, TellsWhatIsWrongWithThePath) {
 }
 
 TEST(VideoWriter, SaysThatTheFileIsNotWhole) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   VideoWriter video(folder / "a.mp4", 25);
   video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(9)));
   std::filesystem::remove(folder / "a.mp4");
@@ -97,7 +97,7 @@ TEST(VideoWriter, SaysThatTheFileIsNotWhole) {
 }
 
 TEST(VideoWriter, IsSilent) {
-  const test::TemporaryFolder folder;
+  const test::TempFolder folder;
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   {
