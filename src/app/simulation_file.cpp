@@ -71,7 +71,10 @@ Simulation read_simulation(const Section& section) {
     s.world.helicopter = read_helicopter(*helicopter, s.world.helicopter);
   }
   if (section.has("texture")) s.texture = section.path("texture");
-  checked(section, [&] { s.goal.check(); });
+  checked(section, [&] {
+    s.world.check();
+    s.goal.check();
+  });
   return s;
 }
 
