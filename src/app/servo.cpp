@@ -4,6 +4,7 @@
 
 #include "chain.hpp"
 #include "interrupt.hpp"
+#include "simulation_file.hpp"
 #include "sinks.hpp"
 #include "verbs.hpp"
 
@@ -25,7 +26,7 @@ Summary summarise(const ChainEnd& end, const CommandSink& sink) {
 RunResult servo(const ServoArguments& a) {
   Section file = Section::load(a.task);
   Experiment experiment = read_experiment(file);
-  file.has("simulation");  // another verb's section
+  if (const auto section = file.child_if("simulation")) read_simulation(*section);  // not for us
   file.done();
   if (!a.source.empty()) override_source(experiment, a.source);
   if (!a.sink.empty()) experiment.sink = a.sink;
