@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pyramid.hpp"
+#include "taps.hpp"
 
 namespace kestrel::sim_detail {
 

@@ -1,19 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
 namespace kestrel::sim_detail {
-
-/// Pixels that are worked on together: side by side in a row, so that the compiler can.
-constexpr int kRun = 16;
-using Run = std::array<float, kRun>;
 
 /// The texture at one scale, ready for bilinear taps.
 struct Level {
@@ -32,8 +25,8 @@ struct Pyramid {
   Level sharp;  // the texture itself
   /// Means over 2x2 of its texels, each level 2^(1/4) coarser, from texels half as large as the
   /// texture's on. One tap of the level whose two texels span a pixel best is then the mean over
-  /// the pixel, within 9 % of its width: edges stay where they are, also when they run along a row
-  /// of pixels. (Taps of unaveraged texels would shift such edges by up to 0.1 px.)
+  /// the pixel, within 9 % of its width, and edges stay where they are, also when they run along a
+  /// row of pixels. (Taps of unaveraged texels would shift such edges by up to 0.1 px.)
   std::vector<Level> means;
 };
 
@@ -48,11 +41,16 @@ inline Level sharp_level(const cv::Mat& texture) {
   return level;
 }
 
-/// Of the texture resized to `picture`.
+/// 8 bits of fraction while the levels are made: rounded at each, they would grow brighter.
+constexpr double kFraction = 256;
+
+/// Of the texture (of that size) resized to `picture`, 16 bits.
 inline Level mean_level(const cv::Mat& picture, cv::Size texture) {
   Level level;
-  cv::copyMakeBorder(picture, level.grey, 1, 2, 1, 2, cv::BORDER_REPLICATE);
-  cv::blur(level.grey, level.grey, {2, 2}, {0, 0}, cv::BORDER_REPLICATE);
+  cv::Mat padded;
+  cv::copyMakeBorder(picture, padded, 1, 2, 1, 2, cv::BORDER_REPLICATE);
+  cv::blur(padded, padded, {2, 2}, {0, 0}, cv::BORDER_REPLICATE);
+  padded.convertTo(level.grey, CV_8U, 1 / kFraction);
   level.per_texel_s = float(picture.cols) / float(texture.width);
   level.per_texel_t = float(picture.rows) / float(texture.height);
   level.last_s = float(picture.cols);
@@ -60,139 +58,30 @@ inline Level mean_level(const cv::Mat& picture, cv::Size texture) {
   return level;
 }
 
-inline Pyramid pyramid(const cv::Mat& texture) {
-  Pyramid result{float(texture.cols), float(texture.rows), sharp_level(texture), {}};
-  std::vector<cv::Mat> pictures;
-  for (int i = 0;; ++i) {
-    const double scale = 2 * std::exp2(-double(i) / kLevelsPerOctave);
+/// Levels finer than the texture are interpolated, the next octave is averaged from the texture,
+/// each further level from the one an octave finer.
+inline std::vector<Level> mean_levels(const cv::Mat& texture) {
+  std::vector<cv::Mat> pictures(1);
+  texture.convertTo(pictures.front(), CV_16U, kFraction);
+  std::vector<Level> levels;
+  for (int i = -kLevelsPerOctave;; ++i) {
+    const double scale = std::exp2(-double(i) / kLevelsPerOctave);
     const cv::Size size(int(std::lround(texture.cols * scale)),
                         int(std::lround(texture.rows * scale)));
-    if (i > kLevelsPerOctave && std::min(size.width, size.height) < 2) return result;
-    // Finer than the texture: interpolated. Coarser: from the picture an octave finer.
-    const int octave_finer = i - kLevelsPerOctave;
-    cv::Mat picture = texture;
-    if (octave_finer < 0) cv::resize(texture, picture, size, 0, 0, cv::INTER_LINEAR);
-    if (octave_finer > 0) {
-      const cv::Mat& source =
-          octave_finer < kLevelsPerOctave ? texture : pictures[std::size_t(octave_finer)];
+    if (i > 0 && std::min(size.width, size.height) < 2) return levels;
+    cv::Mat picture = pictures.front();
+    if (i < 0) cv::resize(pictures.front(), picture, size, 0, 0, cv::INTER_LINEAR);
+    if (i > 0) {
+      const cv::Mat& source = pictures[std::size_t(std::max(0, i - kLevelsPerOctave))];
       cv::resize(source, picture, size, 0, 0, cv::INTER_AREA);
+      pictures.push_back(picture);
     }
-    pictures.push_back(picture);
-    result.means.push_back(mean_level(picture, texture.size()));
+    levels.push_back(mean_level(picture, texture.size()));
   }
 }
 
-/// A pixel on the texture: a parallelogram with sides (sa, ta), one pixel to the right, and
-/// (sb, tb), one pixel down; texels.
-struct Footprint {
-  float sa;
-  float ta;
-  float sb;
-  float tb;
-};
-
-/// Longest row of taps; a footprint that needs more is read from a coarser level.
-constexpr float kMaxTaps = 32;
-/// Texels that one tap stands for: of the texture itself, and of a level of means with the 9 %
-/// that its scale may be off.
-constexpr float kSharpTap = 1;
-constexpr float kMeanTap = 2.2f;
-
-/// A level and how its taps share a footprint.
-struct Reading {
-  const Level* level;
-  float across;  // taps
-  float down;
-};
-
-/// From the level whose mean spans the narrow side of the footprint in one tap; where the texture
-/// is magnified more than twofold, 2x2 taps of the texture itself.
-inline Reading reading(const Pyramid& pyramid, const Footprint& f) {
-  const float a = std::sqrt(f.sa * f.sa + f.ta * f.ta);
-  const float b = std::sqrt(f.sb * f.sb + f.tb * f.tb);
-  const float longest = std::max(a, b);
-  const float narrowest = std::abs(f.sa * f.tb - f.sb * f.ta) / std::max(longest, 1e-20f);
-  const float texels = std::max(narrowest, longest / kMaxTaps);
-  if (!(texels > 0.46f)) {  // 2^(-9/8): where the finest means would be half a level too coarse
-    const auto taps = [](float length) { return std::max(2.f, std::ceil(length / kSharpTap)); };
-    return {&pyramid.sharp, taps(a), taps(b)};
-  }
-  const float wanted = std::round(kLevelsPerOctave * (std::log2(texels) + 1));
-  const float i = std::clamp(wanted, 0.f, float(pyramid.means.size() - 1));
-  const Level& level = pyramid.means[std::size_t(i)];
-  const float scale = std::max(level.per_texel_s, level.per_texel_t);
-  const auto taps = [scale](float length) {
-    return std::clamp(std::ceil(length * scale / kMeanTap), 1.f, kMaxTaps);
-  };
-  return {&level, taps(a), taps(b)};
-}
-
-/// Bilinear grey levels at (s[k] + ds, t[k] + dt), texels of this level from its outer edge; beyond
-/// the edge the edge's. Coordinates that are not numbers read the first texel.
-inline Run taps(const Level& level, const Run& s, const Run& t, float ds, float dt) {
-  const float right = level.last_s;
-  const float bottom = level.last_t;
-  ds -= level.first;
-  dt -= level.first;
-  std::array<std::int32_t, kRun> column;
-  std::array<std::int32_t, kRun> row;
-  Run a;
-  Run b;
-  for (std::size_t k = 0; k < kRun; ++k) {
-    float x = s[k] + ds;
-    float y = t[k] + dt;
-    x = x > 0 ? x : 0;
-    y = y > 0 ? y : 0;
-    x = x < right ? x : right;
-    y = y < bottom ? y : bottom;
-    column[k] = std::int32_t(x);
-    row[k] = std::int32_t(y);
-    a[k] = x - float(column[k]);
-    b[k] = y - float(row[k]);
-  }
-  const std::uint8_t* data = level.grey.data;
-  const std::size_t step = level.grey.step[0];
-  std::array<std::int32_t, kRun> upper;  // two neighbouring texels each
-  std::array<std::int32_t, kRun> lower;
-  for (std::size_t k = 0; k < kRun; ++k) {
-    const std::uint8_t* p = data + std::size_t(row[k]) * step + column[k];
-    std::uint16_t pair;
-    std::memcpy(&pair, p, 2);
-    upper[k] = pair;
-    std::memcpy(&pair, p + step, 2);
-    lower[k] = pair;
-  }
-  Run grey;
-  for (std::size_t k = 0; k < kRun; ++k) {
-    const float p = float(upper[k] & 255);
-    const float q = float(lower[k] & 255);
-    const float above = p + a[k] * (float(upper[k] >> 8) - p);
-    const float below = q + a[k] * (float(lower[k] >> 8) - q);
-    grey[k] = above + b[k] * (below - above);
-  }
-  return grey;
-}
-
-/// Mean grey levels over footprints centred at (s[k], t[k]), texels of the texture from its outer
-/// edge.
-inline Run mean_light(const Pyramid& pyramid, Run s, Run t, Footprint f) {
-  const auto [level, across, down] = reading(pyramid, f);
-  const float x = level->per_texel_s;
-  const float y = level->per_texel_t;
-  f = {f.sa * x, f.ta * y, f.sb * x, f.tb * y};
-  for (std::size_t k = 0; k < kRun; ++k) {
-    s[k] *= x;
-    t[k] *= y;
-  }
-  Run sum{};
-  for (float j = 0.5f / down - 0.5f; j < 0.5f; j += 1 / down) {
-    for (float i = 0.5f / across - 0.5f; i < 0.5f; i += 1 / across) {
-      const Run grey = taps(*level, s, t, i * f.sa + j * f.sb, i * f.ta + j * f.tb);
-      for (std::size_t k = 0; k < kRun; ++k) sum[k] += grey[k];
-    }
-  }
-  for (float& grey : sum) grey /= across * down;
-  return sum;
+inline Pyramid pyramid(const cv::Mat& texture) {
+  return {float(texture.cols), float(texture.rows), sharp_level(texture), mean_levels(texture)};
 }
 
 }  // namespace kestrel::sim_detail

@@ -10,6 +10,7 @@
 #include "coverage.hpp"
 #include "exposure.hpp"
 #include "pyramid.hpp"
+#include "taps.hpp"
 
 namespace kestrel {
 namespace {

@@ -27,7 +27,7 @@ const char* fault(const TexturedPlane& plane) {
 
 /// Ground that faces up: x east, y south, z down; its northern edge at north 0.
 TexturedPlane ground_plane(const WallOptions& o) {
-  constexpr double kPxPerM = 40;  // seen from metres away and at a slant
+  constexpr double kPxPerM = 25;  // seen from metres away and at a slant
   TexturedPlane plane;
   plane.width_m = 2 * o.wall_width_m;
   plane.height_m = o.ground_depth_m;

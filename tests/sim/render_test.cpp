@@ -31,7 +31,13 @@ Camera small_camera() {
 }
 
 Camera distorted_camera() {
-  CameraParameters p = small_camera().parameters();
+  CameraParameters p;
+  p.width = 72;
+  p.height = 52;
+  p.px = 71;
+  p.py = 69;
+  p.u0 = 36.2;
+  p.v0 = 25.9;
   p.lens = Lens::PlumbBob;
   p.distortion = {-0.25, 0.08, 0.002, -0.001, 0};
   return Camera(p);
@@ -149,9 +155,9 @@ TEST(Render, FineCheckerboardIsItsMean) {
 }
 
 TEST(Render, AgreesWithBruteForce) {
-  Scene scene = on_wall(facade(600, 400, 40, 1), 15, 10, 200);
+  Scene scene = on_wall(facade(450, 300, 30, 1), 15, 10, 200);
   scene.planes.push_back({poster(256, 192, 1), 2.0, 1.5, world_from_wall()});
-  TexturedPlane floor{ground(300, 300, 1), 20, 20, {}};
+  TexturedPlane floor{ground(200, 200, 1), 20, 20, {}};
   floor.world_from_target.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   floor.world_from_target.translation << -10, 0, 3;
   scene.planes.insert(scene.planes.begin(), floor);
@@ -160,14 +166,16 @@ TEST(Render, AgreesWithBruteForce) {
                                         looking({1.2, 0, 0}, 3)};
   for (const CameraPose& pose : poses) {
     const cv::Mat view = render(scene, distorted_camera(), pose);
-    const cv::Mat truth = test::supersampled_view(scene, distorted_camera(), pose, 8);
+    const cv::Mat truth = test::supersampled_view(scene, distorted_camera(), pose, 6);
     cv::Mat difference;
     cv::subtract(view, truth, difference, cv::noArray(), CV_32F);
     cv::Scalar mean;
     cv::Scalar deviation;
     cv::meanStdDev(difference, mean, deviation);
-    EXPECT_NEAR(mean[0], 0, 0.3);  // no light is lost
-    EXPECT_LT(deviation[0], 5);    // of contrasts of 60: the response at half a cycle per pixel
+    // No light is lost but where two planes meet: there a quarter of the background shows through
+    // one row of pixels, 0.25 * 70 grey levels over 72 of 72 * 52 pixels, 0.34 at most.
+    EXPECT_NEAR(mean[0], 0, 0.45);
+    EXPECT_LT(deviation[0], 5);  // of contrasts of 60: the response at half a cycle per pixel
   }
 }
 
