@@ -35,7 +35,7 @@ void add_run_options(CLI::App& verb, RunArguments& run) {
                 "Show each frame in a window; a right click ends the run (default: no window)");
 }
 
-void add_track(CLI::App& app, std::shared_ptr<TrackArguments> a) {
+void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
   auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
   verb->add_option("INPUT,--input", a->input,
                    "sequences/NAME.yaml, a pattern like I%04d.png, a folder, a video file, "
@@ -58,7 +58,7 @@ void add_track(CLI::App& app, std::shared_ptr<TrackArguments> a) {
   add_run_options(*verb, a->run);
 }
 
-void add_servo(CLI::App& app, std::shared_ptr<ServoArguments> a) {
+void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   auto* verb = app.add_subcommand("servo", "Run a task: track, pose, servo, command, send");
   verb->add_option("TASK", a->task, "Task file (tasks/*.yaml)")->required();
   verb->add_option("--source,--input,--device", a->source,
@@ -72,7 +72,7 @@ void add_servo(CLI::App& app, std::shared_ptr<ServoArguments> a) {
   add_run_options(*verb, a->run);
 }
 
-void add_simulate(CLI::App& app, std::shared_ptr<SimulateArguments> a) {
+void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
   verb->add_option("TASK", a->task, "Task file with a section 'simulation'")->required();
   verb->add_option("--duration", a->duration_s, "Longest flight, s (default: the task's)");
@@ -81,7 +81,7 @@ void add_simulate(CLI::App& app, std::shared_ptr<SimulateArguments> a) {
   add_run_options(*verb, a->run);
 }
 
-void add_receive(CLI::App& app, std::shared_ptr<ReceiveArguments> a) {
+void add_receive(CLI::App& app, const std::shared_ptr<ReceiveArguments>& a) {
   auto* verb =
       app.add_subcommand("receive", "Print, count and log the commands that arrive over UDP");
   verb->add_option("ADDRESS", a->address, "Where to listen (default udp://127.0.0.1:14550)");
@@ -91,14 +91,14 @@ void add_receive(CLI::App& app, std::shared_ptr<ReceiveArguments> a) {
   verb->add_flag("--quiet", a->quiet, "Print the counts at the end only");
 }
 
-void add_check(CLI::App& app, std::shared_ptr<CheckArguments> a) {
+void add_check(CLI::App& app, const std::shared_ptr<CheckArguments>& a) {
   auto* verb = app.add_subcommand("check",
                                   "Validate task, camera, mount and sequence files and say what "
                                   "was understood");
   verb->add_option("FILES", a->files, "Files to check")->required();
 }
 
-void add_demo(CLI::App& app, std::shared_ptr<DemoArguments> a) {
+void add_demo(CLI::App& app, const std::shared_ptr<DemoArguments>& a) {
   auto* verb = app.add_subcommand(
       "demo", "The main job: track a recorded sequence, send the commands, fly the helicopter");
   verb->add_option("--tasks", a->tasks, "Folder of the task files (default tasks)");

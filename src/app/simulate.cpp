@@ -22,8 +22,8 @@ Transform<frame::World, frame::Body> goal_in_world(const Task& task, const World
   return world.world_from_target * task.goal.inverse() * task.body_from_camera.inverse();
 }
 
-double yaw_of(const Eigen::Matrix3d& world_R_body) {
-  return std::atan2(world_R_body(1, 0), world_R_body(0, 0));
+double yaw_of(const Eigen::Matrix3d& world_from_body) {
+  return std::atan2(world_from_body(1, 0), world_from_body(0, 0));
 }
 
 /// Where the flight is against its goal, by the truth of the world.
