@@ -20,8 +20,8 @@ Range widened(const Range& range, double margin) {
   const double high = std::clamp(range.high, -largest, largest);
   const double length = high - low;
   const double size = std::max(std::abs(low), std::abs(high));
-  if (!(length > 1e-12 * size)) {
-    const double half = size > 0 ? 0.1 * size : 0.5;
+  if (!(length > 1e-12 * size) || length < 1e-300) {
+    const double half = size > 1e-300 ? 0.1 * size : 0.5;
     return {low - half, high + half};
   }
   return {low - margin * length, high + margin * length};
@@ -91,11 +91,8 @@ Range range_of(const std::vector<double>& values, Spacing spacing, double margin
 
 std::vector<Tick> ticks(const Range& range, Spacing spacing, int count) {
   if (!(range.low < range.high) || !std::isfinite(range.high - range.low)) return {};
-  if (spacing == Spacing::Logarithmic) {
-    // Not positive: no logarithmic range. A subnormal number has no decade of its own.
-    if (!(range.low >= std::numeric_limits<double>::min())) return {};
-    return logarithmic_ticks(range, count);
-  }
+  if (!has_place(range.low, spacing)) return {};
+  if (spacing == Spacing::Logarithmic) return logarithmic_ticks(range, count);
   const double step = round_step((range.high - range.low) / std::max(count, 1));
   const int decimals = std::max(0, -int(std::floor(std::log10(step) + 1e-9)));
   const double size = std::max(std::abs(range.low), std::abs(range.high));

@@ -180,7 +180,8 @@ void draw_corners(cv::Mat& picture, const std::array<Pixel, 4>& corners, const c
 cv::Mat overlay(const Frame& frame, const cv::Mat& template_picture, const Track& track,
                 const OverlayOptions& options) {
   const int width = frame.gray.empty() ? 320 : frame.gray.cols;
-  const StatusText status = fitted(status_line(frame, track, options.sent), width);
+  const StatusText status =
+      fitted(status_line(frame, track, options.sent), longest_status(options.sent), width);
   cv::Mat whole = canvas(frame, status.height());
   cv::Mat picture = whole.rowRange(0, whole.rows - status.height());
   draw_window(picture, track.window);

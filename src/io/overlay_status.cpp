@@ -42,6 +42,9 @@ std::vector<std::string> wrapped(const std::vector<std::string>& words, double s
   return lines;
 }
 
+// Rounded to 1/parts, without the sign of a zero.
+double rounded(double value, double parts) { return std::round(value * parts) / parts + 0.; }
+
 std::string upper(std::string text) {
   for (char& c : text) c = c == '_' ? ' ' : char(std::toupper(static_cast<unsigned char>(c)));
   return text;
@@ -59,19 +62,28 @@ std::string status_line(const Frame& frame, const Track& track,
   line += fmt::format("   {}/{} inliers", track.inliers.size(), track.matches);
   if (!sent) return line;
   const VelocityCommand& v = sent->command;
-  return line + fmt::format("   v {:+.2f} {:+.2f} {:+.2f} m/s   yaw {:+.1f} deg/s", v.forward_m_s,
-                            v.right_m_s, v.down_m_s, v.yaw_rate_rad_s * 180 / M_PI);
+  return line + fmt::format("   v {:+.2f} {:+.2f} {:+.2f} m/s   yaw {:+.1f} deg/s",
+                            rounded(v.forward_m_s, 100), rounded(v.right_m_s, 100),
+                            rounded(v.down_m_s, 100), rounded(v.yaw_rate_rad_s * 180 / M_PI, 10));
 }
 
-StatusText fitted(const std::string& words, int width) {
+StatusText fitted(const std::string& words, const std::string& longest, int width) {
   StatusText status;
   const double least = 0.35;  // the smallest type that can be read
   status.scale = std::max(least, 0.45 * std::max(1., width / 960.));
-  const double wide = text_width(words, status.scale);
+  const double wide = text_width(longest, status.scale);
   const double fits = status.scale * (width - 2 * kMargin) / std::max(wide, 1.);
   if (fits < status.scale) status.scale = std::max(least, fits);
+  status.rows = int(wrapped(groups(longest), status.scale, width).size());
   status.lines = wrapped(groups(words), status.scale, width);
+  status.lines.resize(std::min(status.lines.size(), std::size_t(status.rows)));
   return status;
+}
+
+std::string longest_status(const std::optional<FailsafeCommand>& sent) {
+  const std::string seen = "frame 00000   LOST: few keypoints";
+  if (!sent) return seen + "   000/000 inliers";
+  return seen + "   HOVER   000/000 inliers   v +0.00 +0.00 +0.00 m/s   yaw +00.0 deg/s";
 }
 
 void draw(const StatusText& status, cv::Mat strip) {

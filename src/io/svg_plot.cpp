@@ -89,7 +89,7 @@ Axes axes_of(const Plot& plot, double top) {
     (is_near ? out.drawn : out.beyond).push_back(limit);
     if (is_near) ys.push_back(limit.y);
   }
-  const bool free = plot.axes == Plot::Axes::Free;
+  const bool free = plot.axes == Plot::Axes::Free || plot.y_spacing == Spacing::Logarithmic;
   out.x = {range_of(xs, Spacing::Linear, free ? 0.01 : 0.05), Spacing::Linear, kLeft,
            plot.width_px - kRight};
   out.y = {range_of(ys, plot.y_spacing, 0.06), plot.y_spacing, plot.height_px - kBottom, top};

@@ -87,6 +87,7 @@ TEST(Ticks, OfNoRangeAreNone) {
        {Range{1, 1}, Range{2, 1}, Range{kNan, 1}, Range{0, kInf}, Range{kNan, kNan}})
     for (const Spacing spacing : {Spacing::Linear, Spacing::Logarithmic})
       EXPECT_TRUE(ticks(range, spacing, 6).empty());
+  EXPECT_TRUE(ticks({-1, 1}, Spacing::Logarithmic, 6).empty());
 }
 
 TEST(Ticks, SayTheirValue) {

@@ -95,8 +95,7 @@ TEST(Overlay, JoinsMatchesByColouredLines) {
   track.inliers = {{{60, 45}, {360, 245}}};
   const cv::Mat drawn = overlay({0, 0, grey(640, 480, 50), {}}, noise(120, 90), track);
   for (const double part : {0.3, 0.5, 0.7})
-    EXPECT_TRUE(is_colour(drawn.at<cv::Vec3b>(int(45 + 200 * part), int(60 + 300 * part))))
-        << part;
+    EXPECT_TRUE(is_colour(drawn.at<cv::Vec3b>(int(45 + 200 * part), int(60 + 300 * part)))) << part;
 }
 
 TEST(Overlay, MapsMatchesOfAShrunkTemplate) {
@@ -175,6 +174,20 @@ TEST(Overlay, OfNoImageIsAField) {
   EXPECT_EQ(overlay({0, 0, colour, {}}, cv::Mat(), Track{}).cols, 64);
 }
 
+TEST(Overlay, HasOneHeightInARun) {
+  Track lost;
+  lost.miss = Miss::FewKeypoints;
+  for (const int width : {64, 160, 320, 384, 640, 752, 1280, 1920}) {
+    const Frame frame{12345, 0, grey(width, 40, 50), {}};
+    OverlayOptions options;
+    options.sent = FailsafeCommand{{}, CommandState::Servo};
+    const int rows = overlay(frame, cv::Mat(), seen(), options).rows;
+    options.sent = FailsafeCommand{{-1, -1, -1, -0.5}, CommandState::Hover};
+    EXPECT_EQ(overlay(frame, cv::Mat(), lost, options).rows, rows);
+    EXPECT_EQ(overlay(frame, cv::Mat(), lost).rows, overlay(frame, cv::Mat(), seen()).rows);
+  }
+}
+
 TEST(Overlay, LeavesTheFrameAlone) {
   const cv::Mat picture = noise(200, 100);
   const cv::Mat before = picture.clone();
@@ -195,6 +208,9 @@ TEST(StatusLine, SaysWhatCounts) {
             "frame 18   LOST: few matches   HOVER   0/3 inliers   v +0.00 +0.00 +0.00 m/s   "
             "yaw +0.0 deg/s");
   EXPECT_THAT(status_line({17, 0, {}, {}}, track, {}), Not(HasSubstr("yaw")));
+  const FailsafeCommand tiny{{-0.001, -0., 0, -0.0001}, CommandState::Servo};
+  EXPECT_THAT(status_line({17, 0, {}, {}}, track, tiny), HasSubstr("v +0.00 +0.00 +0.00 m/s"));
+  EXPECT_THAT(status_line({17, 0, {}, {}}, track, tiny), HasSubstr("yaw +0.0 deg/s"));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ Range range_of(const std::vector<double>& values, Spacing spacing, double margin
 
 /// About `count` round numbers inside the range: 1, 2 or 5 times a power of ten apart, or for a
 /// logarithmic axis whole powers of ten (with 2 and 5 times these when there are few). Empty for a
-/// range that is none (low >= high, or not finite).
+/// range that is none (low >= high, not finite, or for a
+/// logarithmic axis not positive).
 std::vector<Tick> ticks(const Range& range, Spacing spacing, int count);
 
 /// A range of numbers laid along a drawing from pixel `begin` (range.low) to pixel `end`.

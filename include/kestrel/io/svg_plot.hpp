@@ -48,7 +48,7 @@ struct Plot {
   std::vector<Mark> marks;
   enum class Axes {
     Free,       // each axis as long as its values ask for
-    Equal,      // one unit is as long on both
+    Equal,      // one unit is as long on both (linear axes only)
     EqualDown,  // the same, y growing downwards: an image
   } axes = Axes::Free;
   std::string when_empty = "no values to show";
