@@ -86,7 +86,7 @@ constexpr double kRankTolerance = 1e-7;
 
 /// The least-squares solution of eq. (5), two rows a pair, by SVD.
 std::optional<Eigen::Matrix3d> through_many(const std::vector<PixelPair>& pairs) {
-  using System = Eigen::Matrix<double, Eigen::Dynamic, 8>;
+  using System = Eigen::MatrixXd;  // 2n x 8
   System A(2 * pairs.size(), 8);
   Eigen::VectorXd b(2 * pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
