@@ -54,12 +54,9 @@ double error_px(const TrackTruth& truth, std::int64_t frame,
 /// Runs the tracker over the frames and keeps what the summary needs.
 class TrackRun {
  public:
-  TrackRun(const Template& model, std::optional<PoseSetup> pose, TrackTruth truth,
+  TrackRun(const Template& model, const std::optional<PoseSetup>& pose, TrackTruth truth,
            RunRecorder& recorder)
-      : model_(model),
-        pose_setup_(std::move(pose)),
-        truth_(std::move(truth)),
-        recorder_(recorder) {}
+      : model_(model), pose_setup_(pose), truth_(std::move(truth)), recorder_(recorder) {}
 
   void start(const Frame& first) {
     state_ = start_tracking(model_, first.gray.cols, first.gray.rows);
