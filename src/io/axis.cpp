@@ -37,7 +37,7 @@ Range logarithmic_range(const Range& range, double margin) {
 }
 
 std::string superscript(int exponent) {
-  static const char* const kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "⁻" : "";
   for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[digit - '0'];
   return text;

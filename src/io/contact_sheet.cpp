@@ -14,7 +14,7 @@ void ContactSheet::offer(const cv::Mat& picture, const std::string& caption, dou
     return own;
   };
   if (even_ > 0 && place % stride_ == 0) spaced_.push_back(copy());
-  if (spaced_.size() > std::size_t(4 * even_)) {
+  if (spaced_.size() > 4 * std::size_t(even_)) {
     // Each doubling of the stride drops every other picture: memory stays bounded, spacing even.
     stride_ *= 2;
     const auto is_between = [&](const Kept& k) { return k.place % stride_ != 0; };

@@ -62,10 +62,10 @@ cv::VideoCapture open_stream(const std::string& address, const LiveOptions& opti
 /// The newest frame of a capture that a thread of its own reads.
 class LiveCamera : public FrameSource {
  public:
-  LiveCamera(std::string address, cv::VideoCapture capture, double stall_timeout_s)
+  LiveCamera(std::string address, const cv::VideoCapture& capture, double stall_timeout_s)
       : address_(std::move(address)),
         stall_timeout_s_(stall_timeout_s),
-        capture_(std::move(capture)),
+        capture_(capture),
         reader_([this] { read_all(); }) {}
   /// Waits for the reader: as long as the capture's own time-out at most.
   ~LiveCamera() override {

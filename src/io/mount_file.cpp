@@ -67,7 +67,7 @@ Displacement displacement(const Section& section) {
 /// A direction in Body in words: the nearest axis and, beyond half a degree, by how much it leans
 /// and where to.
 std::string direction(const Eigen::Vector3d& d, const std::array<const char*, 6>& names) {
-  const auto name = [&](int axis) { return names[std::size_t(2 * axis + (d[axis] < 0 ? 1 : 0))]; };
+  const auto name = [&](int axis) { return names[2 * std::size_t(axis) + (d[axis] < 0 ? 1 : 0)]; };
   int nearest = 0;
   d.cwiseAbs().maxCoeff(&nearest);
   const double lean_deg = std::acos(std::fmin(1, std::abs(d[nearest]))) / kDegree;
@@ -104,7 +104,7 @@ template TargetPose read_pose(const Section&);
 
 Mount read_mount(const Section& section) {
   if (section.has("file")) return load_mount(section.path("file"));
-  const auto mount = read_pose<frame::Body, frame::Camera>(section);
+  auto mount = read_pose<frame::Body, frame::Camera>(section);
   const double lever = mount.translation.norm();
   if (lever > kLargestLever_m) {
     section.fail(
@@ -116,7 +116,7 @@ Mount read_mount(const Section& section) {
 
 Mount load_mount(const std::filesystem::path& file) {
   const Section root = Section::load(file);
-  const Mount mount = read_mount(root);
+  Mount mount = read_mount(root);
   root.done();
   return mount;
 }

@@ -148,11 +148,12 @@ std::vector<ReportFile> files_of(const std::filesystem::path& folder,
       sizes[entry.path().filename().string()] = entry.file_size();
   }
   std::vector<ReportFile> out;
-  for (const auto& [name, size] : sizes) {
+  for (const auto& entry : sizes) {
+    const std::string& name = entry.first;  // a binding cannot be captured
     const auto known = std::find_if(descriptions.begin(), descriptions.end(),
                                     [&](const ReportFile& file) { return file.name == name; });
     const std::string words = known == descriptions.end() ? "" : known->what + ", ";
-    out.push_back({name, words + size_words(size)});
+    out.push_back({name, words + size_words(entry.second)});
   }
   return out;
 }

@@ -30,7 +30,7 @@ std::string error_norm(const LogFile& log) {
 }
 
 std::string camera_velocities(const LogFile& log) {
-  static const char* const kNames[] = {"vc_x", "vc_y", "vc_z", "wc_x", "wc_y", "wc_z"};
+  static constexpr const char* kNames[] = {"vc_x", "vc_y", "vc_z", "wc_x", "wc_y", "wc_z"};
   Plot plot = time_plot("Camera velocities", "m/s, rad/s");
   for (int i = 0; i < 6; ++i)
     plot.series.push_back(
@@ -49,7 +49,7 @@ std::string condition(const LogFile& log) {
 }
 
 std::string command(const LogFile& log, const RunView& view, int axis) {
-  static const char* const kNames[] = {"forward", "right", "down", "yaw rate"};
+  static constexpr const char* kNames[] = {"forward", "right", "down", "yaw rate"};
   const double unit = axis == 3 ? kDegrees : 1;
   Plot plot = time_plot(std::string("Command: ") + kNames[axis], axis == 3 ? "deg/s" : "m/s");
   plot.series = {
@@ -80,7 +80,7 @@ std::string states(const LogFile& log) {
 
 std::string translation(const LogFile& log) {
   Plot plot = time_plot("Target in the camera: translation", "m");
-  static const char* const kNames[] = {"x right", "y down", "z ahead"};
+  static constexpr const char* kNames[] = {"x right", "y down", "z ahead"};
   for (int i = 0; i < 3; ++i)
     plot.series.push_back({kNames[i], times(log), column(log, &LogRow::pose, [&](const auto& p) {
                              return p.translation_m[i];
@@ -90,7 +90,7 @@ std::string translation(const LogFile& log) {
 
 std::string rotation(const LogFile& log) {
   Plot plot = time_plot("Target in the camera: rotation θu", "deg");
-  static const char* const kNames[] = {"θu x", "θu y", "θu z"};
+  static constexpr const char* kNames[] = {"θu x", "θu y", "θu z"};
   for (int i = 0; i < 3; ++i)
     plot.series.push_back({kNames[i], times(log), column(log, &LogRow::pose, [&](const auto& p) {
                              return kDegrees * p.rotation_rad[i];

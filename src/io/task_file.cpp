@@ -24,7 +24,7 @@ std::string place_of(const Section& root, const std::string& source) {
 }
 
 std::string read_source(const Section& root) {
-  const std::string source = root.text("source");
+  std::string source = root.text("source");
   for (const char* start :
        {"sequence:", "images:", "video:", "camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
     if (begins_with(source, start)) return source;
@@ -36,7 +36,7 @@ std::string read_source(const Section& root) {
 }
 
 std::string read_sink(const Section& root) {
-  const std::string sink = root.text("sink", std::string("none"));
+  std::string sink = root.text("sink", std::string("none"));
   if (sink != "none" && !begins_with(sink, "udp://")) {
     root.fail("sink", "is '" + sink + "'; give udp://HOST:PORT or none");
   }
@@ -131,7 +131,7 @@ double read_size(const Section& target, const std::string& key, std::size_t side
 
 TargetPose read_goal(const Section& root) {
   const Section section = root.child("goal_camera_from_target");
-  const auto goal = read_pose<frame::Camera, frame::Target>(section);
+  auto goal = read_pose<frame::Camera, frame::Target>(section);
   if (!(goal.translation.z() > 0)) {
     section.fail("translation_m", "puts the target behind the camera; its z must be positive");
   }

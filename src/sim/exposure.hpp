@@ -31,7 +31,7 @@ inline std::vector<float> normal_quantiles(int n = kQuantiles) {
 /// Adds noise and rounds. The stream is the row's own, so rows may be made in any order.
 inline void expose_row(const std::vector<float>& light, int width, std::uint8_t* grey,
                        float noise_grey, const std::vector<float>& quantiles, std::uint64_t seed) {
-  Stream random(seed);
+  RandomStream random(seed);
   std::uint64_t bits = 0;
   for (int u = 0; u < width; ++u) {
     float value = light[std::size_t(u)];

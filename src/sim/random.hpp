@@ -6,9 +6,9 @@ namespace kestrel::sim_detail {
 
 /// A small stream of chance, the same on every machine: SplitMix64 (Steele, Lea & Flood 2014).
 /// Neighbouring seeds give unrelated streams.
-class Stream {
+class RandomStream {
  public:
-  explicit Stream(std::uint64_t seed) : state_(seed) {}
+  explicit RandomStream(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t bits() {
     state_ += 0x9e3779b97f4a7c15ull;
@@ -30,7 +30,7 @@ class Stream {
 
 /// Seed of a stream of its own for part `index` of what `seed` stands for.
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index) {
-  return Stream(seed ^ Stream(index).bits()).bits();
+  return RandomStream(seed ^ RandomStream(index).bits()).bits();
 }
 
 }  // namespace kestrel::sim_detail

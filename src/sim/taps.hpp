@@ -117,8 +117,10 @@ inline Run mean_light(const Pyramid& pyramid, Run s, Run t, Footprint f) {
     t[k] *= y;
   }
   Run sum{};
-  for (float j = 0.5f / down - 0.5f; j < 0.5f; j += 1 / down) {
-    for (float i = 0.5f / across - 0.5f; i < 0.5f; i += 1 / across) {
+  for (int row = 0; row < int(down); ++row) {
+    const float j = (float(row) + 0.5f) / down - 0.5f;
+    for (int column = 0; column < int(across); ++column) {
+      const float i = (float(column) + 0.5f) / across - 0.5f;
       const Run grey = taps(*level, s, t, i * f.sa + j * f.sb, i * f.ta + j * f.tb);
       for (std::size_t k = 0; k < kRun; ++k) sum[k] += grey[k];
     }

@@ -13,7 +13,7 @@
 namespace kestrel {
 namespace {
 
-using sim_detail::Stream;
+using sim_detail::RandomStream;
 
 void require_size(int width_px, int height_px) {
   if (width_px < 16 || height_px < 16) {
@@ -23,7 +23,7 @@ void require_size(int width_px, int height_px) {
 
 /// Value noise: random lattices from `coarsest_px` down to 2 px cells, each finer one weaker by
 /// `fade`; float, mean 0, amplitude about 1.
-cv::Mat clouds(cv::Size size, double coarsest_px, double fade, Stream& random) {
+cv::Mat clouds(cv::Size size, double coarsest_px, double fade, RandomStream& random) {
   cv::Mat sum(size, CV_32F, cv::Scalar(0));
   double weight = 1 - fade;
   for (double cell = coarsest_px; cell >= 2; cell /= 2, weight *= fade) {
@@ -45,12 +45,12 @@ cv::Mat grained(const cv::Mat& picture, const cv::Mat& noise, double gain) {
   return sum;
 }
 
-cv::Point point_in(const cv::Mat& picture, Stream& random) {
+cv::Point point_in(const cv::Mat& picture, RandomStream& random) {
   return {random.integer(0, picture.cols - 1), random.integer(0, picture.rows - 1)};
 }
 
 /// A polygon of 3 to 7 corners about a centre.
-std::vector<cv::Point> blot(cv::Point centre, double radius, Stream& random) {
+std::vector<cv::Point> blot(cv::Point centre, double radius, RandomStream& random) {
   std::vector<cv::Point> corners;
   const int n = random.integer(3, 7);
   const double turn = random.uniform(0, 2 * M_PI);
@@ -63,7 +63,7 @@ std::vector<cv::Point> blot(cv::Point centre, double radius, Stream& random) {
   return corners;
 }
 
-void draw_shape(cv::Mat& picture, double radius, Stream& random) {
+void draw_shape(cv::Mat& picture, double radius, RandomStream& random) {
   const cv::Point at = point_in(picture, random);
   const int grey = random.integer(15, 240);
   const int line = std::max(1, int(radius * random.uniform(0.1, 0.4)));
@@ -88,7 +88,7 @@ void draw_shape(cv::Mat& picture, double radius, Stream& random) {
 }
 
 /// Shapes from a fifth of the picture down to a few pixels: as many more as they are smaller.
-void draw_shapes(cv::Mat& picture, Stream& random) {
+void draw_shapes(cv::Mat& picture, RandomStream& random) {
   const double side = std::min(picture.cols, picture.rows);
   int count = 14;
   for (double radius = side / 6; radius >= 2; radius /= 1.7, count = count * 2) {
@@ -109,7 +109,7 @@ void draw_word(cv::Mat& picture, const std::string& word, cv::Point at, double h
   cv::putText(picture, word, at, kFont, scale, grey, line, cv::LINE_AA);
 }
 
-void draw_words(cv::Mat& picture, Stream& random) {
+void draw_words(cv::Mat& picture, RandomStream& random) {
   const char* const words[] = {"HOVER", "GAZE", "WIND", "FIELD", "NORTH", "0.5 m/s", "H = K[R|t]"};
   const double h = picture.rows;
   const double w = picture.cols;
@@ -124,7 +124,7 @@ void draw_words(cv::Mat& picture, Stream& random) {
 }
 
 /// One window of the facade: frame, four panes that mirror a different piece of sky each.
-void draw_window(cv::Mat& picture, const cv::Rect& hole, Stream& random) {
+void draw_window(cv::Mat& picture, const cv::Rect& hole, RandomStream& random) {
   const int frame = std::max(1, hole.width / 16);
   cv::rectangle(picture, hole, 225, cv::FILLED);
   const int half_w = (hole.width - 3 * frame) / 2;
@@ -139,7 +139,7 @@ void draw_window(cv::Mat& picture, const cv::Rect& hole, Stream& random) {
   cv::rectangle(picture, sill, 190, cv::FILLED);
 }
 
-void draw_bricks(cv::Mat& picture, double px_per_m, Stream& random) {
+void draw_bricks(cv::Mat& picture, double px_per_m, RandomStream& random) {
   const double length = 0.5 * px_per_m;  // blocks of 0.50 x 0.20 m with joints of 2 cm
   const double height = 0.2 * px_per_m;
   const double joint = 0.02 * px_per_m;
@@ -157,7 +157,7 @@ void draw_bricks(cv::Mat& picture, double px_per_m, Stream& random) {
 
 cv::Mat poster(int width_px, int height_px, std::uint64_t seed) {
   require_size(width_px, height_px);
-  Stream random(seed);
+  RandomStream random(seed);
   const cv::Mat noise = clouds({width_px, height_px}, height_px / 2.0, 0.65, random);
   cv::Mat picture = grained(cv::Mat(height_px, width_px, CV_8U, cv::Scalar(128)), noise, 190);
   draw_shapes(picture, random);
@@ -171,7 +171,7 @@ cv::Mat poster(int width_px, int height_px, std::uint64_t seed) {
 cv::Mat facade(int width_px, int height_px, double px_per_m, std::uint64_t seed) {
   require_size(width_px, height_px);
   if (!(px_per_m > 0)) throw std::invalid_argument("px_per_m: must be positive");
-  Stream random(seed);
+  RandomStream random(seed);
   cv::Mat picture(height_px, width_px, CV_8U, cv::Scalar(165));
   draw_bricks(picture, px_per_m, random);
   const double across = 3.0 * px_per_m;  // a window of 0.9 x 1.6 m every 3.0 x 3.2 m
@@ -189,7 +189,7 @@ cv::Mat facade(int width_px, int height_px, double px_per_m, std::uint64_t seed)
 
 cv::Mat ground(int width_px, int height_px, std::uint64_t seed) {
   require_size(width_px, height_px);
-  Stream random(seed);
+  RandomStream random(seed);
   const cv::Mat noise = clouds({width_px, height_px}, 128, 0.85, random);
   return grained(cv::Mat(height_px, width_px, CV_8U, cv::Scalar(105)), noise, 160);
 }

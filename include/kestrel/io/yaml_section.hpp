@@ -59,6 +59,7 @@ class Section {
   template <class E>
   E choice(const std::string& key, const std::vector<std::pair<std::string, E>>& words) const {
     std::vector<std::string> names;
+    names.reserve(words.size());
     for (const auto& [word, value] : words) names.push_back(word);
     return words[one_of(key, names)].second;
   }
