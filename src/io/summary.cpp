@@ -73,8 +73,10 @@ std::string shown(const SummaryValue& value) {
 
 std::string json_key(const std::string& name, const std::string& unit) {
   const std::string suffix = unit == "%" ? "percent" : unit == "°" ? "deg" : unit;
+  std::string words = name;
+  words.append(" ").append(suffix);
   std::string key;
-  for (const char c : name + " " + suffix) {
+  for (const char c : words) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 128 && std::isalnum(byte))
       key += char(std::tolower(byte));

@@ -41,8 +41,8 @@ void add_marks(Plot& plot, const LogFile& log, const RunView& view, std::size_t 
 }
 
 std::string trajectories(const LogFile& log, const RunView& view) {
-  static const char* const kNames[] = {"p1 top left", "p2 top right", "p3 bottom right",
-                                       "p4 bottom left"};
+  static constexpr const char* kNames[] = {"p1 top left", "p2 top right", "p3 bottom right",
+                                           "p4 bottom left"};
   Plot plot = empty_plot("Corners in the image", "u (px)", "v (px)");
   plot.axes = Plot::Axes::EqualDown;
   plot.height_px = 500;

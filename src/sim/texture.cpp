@@ -26,7 +26,8 @@ void require_size(int width_px, int height_px) {
 cv::Mat clouds(cv::Size size, double coarsest_px, double fade, RandomStream& random) {
   cv::Mat sum(size, CV_32F, cv::Scalar(0));
   double weight = 1 - fade;
-  for (double cell = coarsest_px; cell >= 2; cell /= 2, weight *= fade) {
+  double cell = coarsest_px;
+  while (cell >= 2) {
     cv::Mat lattice(int(size.height / cell) + 2, int(size.width / cell) + 2, CV_32F);
     for (int i = 0; i < lattice.rows * lattice.cols; ++i) {
       lattice.ptr<float>()[i] = float(random.uniform(-1, 1));
@@ -34,6 +35,8 @@ cv::Mat clouds(cv::Size size, double coarsest_px, double fade, RandomStream& ran
     cv::Mat smooth;
     cv::resize(lattice, smooth, size, 0, 0, cv::INTER_CUBIC);
     cv::scaleAdd(smooth, weight, sum, sum);
+    cell /= 2;
+    weight *= fade;
   }
   return sum;
 }
@@ -91,10 +94,13 @@ void draw_shape(cv::Mat& picture, double radius, RandomStream& random) {
 void draw_shapes(cv::Mat& picture, RandomStream& random) {
   const double side = std::min(picture.cols, picture.rows);
   int count = 14;
-  for (double radius = side / 6; radius >= 2; radius /= 1.7, count = count * 2) {
+  double radius = side / 6;
+  while (radius >= 2) {
     for (int i = 0; i < std::min(count, 260); ++i) {
       draw_shape(picture, radius * random.uniform(0.7, 1.3), random);
     }
+    radius /= 1.7;
+    count *= 2;
   }
 }
 
@@ -143,9 +149,11 @@ void draw_bricks(cv::Mat& picture, double px_per_m, RandomStream& random) {
   const double length = 0.5 * px_per_m;  // blocks of 0.50 x 0.20 m with joints of 2 cm
   const double height = 0.2 * px_per_m;
   const double joint = 0.02 * px_per_m;
-  int row = 0;
-  for (double y = 0; y < picture.rows; y += height, ++row) {
-    for (double x = row % 2 ? -length / 2 : 0; x < picture.cols; x += length) {
+  for (int row = 0; row * height < picture.rows; ++row) {
+    const double y = row * height;
+    const double shift = row % 2 ? -length / 2 : 0;  // every other row by half a block
+    for (int column = 0; shift + column * length < picture.cols; ++column) {
+      const double x = shift + column * length;
       const cv::Rect brick(cv::Point(cvRound(x + joint), cvRound(y + joint)),
                            cv::Point(cvRound(x + length), cvRound(y + height)));
       cv::rectangle(picture, brick, random.integer(112, 150), cv::FILLED);
