@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+namespace kestrel {
+
+/// How one textured block of the template is shown by the image.
+struct BlockLikeness {
+  bool is_visible = false;  // all of it inside the image
+  double zncc = 0;          // zero-mean normalised cross-correlation, -1 to 1; 0 where not visible
+};
+
+/// What makes a picture the template's, block by block: what covers or shades a part of the
+/// template changes the blocks there and leaves the others as they are, which one correlation of
+/// the whole does not survive.
+struct AgreementOptions {
+  double alike_zncc = 0.7;          // a block above this shows what the template shows
+  double min_alike_share = 0.3;     // of the visible blocks
+  double min_better_half = 0.7;     // mean correlation of the better half of the visible blocks
+  double min_visible_share = 0.25;  // of the textured blocks
+  int min_alike = 6;                // blocks: fewer can be alike by chance
+
+  /// Throws std::invalid_argument that names the first option out of range.
+  void check() const;
+};
+
+/// How well an image shows the template.
+struct Agreement {
+  int blocks = 0;  // textured
+  int visible = 0;
+  int alike = 0;           // visible, above alike_zncc
+  double better_half = 0;  // mean correlation of the better half of the visible blocks
+
+  double alike_share() const { return visible > 0 ? double(alike) / visible : 0; }
+  double visible_share() const { return blocks > 0 ? double(visible) / blocks : 0; }
+};
+
+/// Counts; reorders what it is given.
+Agreement agreement(std::vector<BlockLikeness>& likeness, const AgreementOptions& options);
+
+/// True when the image shows the template beyond doubt.
+bool is_accepted(const Agreement& agreement, const AgreementOptions& options);
+
+}  // namespace kestrel

@@ -1,0 +1,349 @@
+#include "kestrel/vision/align.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "block_kernels.hpp"
+
+namespace kestrel {
+namespace {
+
+constexpr int kPixels = kernel::kBlockPixels;
+
+/// Neighbouring pixels' residuals are alike (blur, aliasing): about this many count as one.
+constexpr double kCorrelatedPixels = 4;
+
+/// What remains of bilinear sampling and of the picture's own noise however many pixels agree, px.
+constexpr double kLeastDeviationPx = 0.01;
+
+/// A step larger than this, in coordinates of warp(), leaves the range of its linearisation.
+constexpr double kLargestStep = 0.3;
+
+/// Fewer blocks than this cannot hold all eight parameters.
+constexpr int kBlocksForHomography = 6;
+
+/// A level of the template and the level of the image that shows it at about the same size.
+struct LevelPair {
+  int in_template = 0;
+  int in_image = 0;
+};
+
+void require(bool holds, const char* message) {
+  if (!holds) throw std::invalid_argument(message);
+}
+
+/// The template's size in the image over its size, from the areas.
+double scale(const Homography& H, const TemplateBlocks& blocks) {
+  const double area = signed_area(outline(H, blocks.width, blocks.height));
+  return area > 0 ? std::sqrt(area / ((blocks.width - 1) * (blocks.height - 1))) : 1;
+}
+
+/// The finest pair of levels whose sizes differ by less than a factor of sqrt(2).
+LevelPair finest_pair(const Homography& H, const TemplateBlocks& blocks,
+                      const ImagePyramid& image) {
+  const int octaves = int(std::lround(std::log2(scale(H, blocks))));
+  return {std::clamp(-octaves, 0, int(blocks.levels.size()) - 1),
+          std::clamp(octaves, 0, image.levels() - 1)};
+}
+
+/// How many pairs there are, the finest and those coarser by the same octaves.
+int pair_count(const LevelPair& finest, const TemplateBlocks& blocks, const ImagePyramid& image) {
+  int count = 1;
+  while (finest.in_template + count < int(blocks.levels.size()) &&
+         finest.in_image + count < image.levels() &&
+         int(blocks.levels[std::size_t(finest.in_template + count)].blocks.size()) > 0) {
+    ++count;
+  }
+  return count;
+}
+
+kernel::Image sampled(const PyramidLevel& level) {
+  // Four bytes are read at a pixel and at the one below: the last row is left out, so that they
+  // are always there.
+  // The margin is above the rounding of a coordinate in the thousands.
+  constexpr float kInside = 0.01f;
+  return {level.pixels,
+          level.stride,
+          float(level.left) + kInside,
+          float(level.top) + kInside,
+          float(level.right - 1) - kInside,
+          float(level.bottom - 2) - kInside};
+}
+
+double image_norm2(const kernel::BlockSums& sums) {
+  return double(sums.image_squared) - double(sums.image) * sums.image / kPixels;
+}
+
+double zncc(const TemplateBlock& block, const kernel::BlockSums& sums) {
+  const double norm2 = image_norm2(sums);
+  // Below the rounding of eight bits there is no picture.
+  if (norm2 < kPixels / 12.0) return 0;
+  return sums.texture_image / std::sqrt(norm2 * block.texture_norm2);
+}
+
+/// Normal equations of one step, weighted by the residuals' variance and the robust weights.
+struct Normal {
+  Matrix8d information = Matrix8d::Zero();
+  Vector8d gradient = Vector8d::Zero();
+  double residual = 0;  // weighted sum of squared residuals over their variance
+  double freedom = 0;   // weighted number of residuals
+  int blocks = 0;       // that take part
+};
+
+Normal normal_equations(const BlockLevel& level, const std::vector<kernel::BlockSums>& sums,
+                        const AlignOptions& options, const BlockOptions& noise) {
+  Normal n;
+  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+    const TemplateBlock& block = level.blocks[i];
+    if (sums[i].is_visible == 0) continue;
+    const double c = zncc(block, sums[i]);
+    if (c <= 0) continue;
+    const double gain = double(sums[i].texture_image) / block.texture_norm2;
+    const double model = noise.model_error * gain;
+    const double variance =
+        noise.noise_grey * noise.noise_grey + model * model * block.texture_norm2 / kPixels;
+    const double root = options.weight_scale / (options.weight_scale + 1 - std::min(c * c, 1.0));
+    const double weight = root * root / variance;
+    n.information += weight * gain * gain * block.information;
+    const Eigen::Map<const Eigen::Matrix<float, 8, 1>> g(sums[i].derivatives);
+    n.gradient += weight * gain * g.cast<double>();
+    n.residual += weight * image_norm2(sums[i]) * (1 - std::min(c * c, 1.0));
+    n.freedom += root * root * (kPixels - 2);
+    ++n.blocks;
+  }
+  return n;
+}
+
+/// Solution for the first parameters of warp(), the others zero; empty when they are not
+/// determined.
+std::optional<Vector8d> solved(const Normal& n, int parameters) {
+  constexpr double kDamping = 1e-6;
+  Matrix8d A = n.information;
+  for (int k = 0; k < 8; ++k) {
+    if (k < parameters) {
+      A(k, k) *= 1 + kDamping;
+      continue;
+    }
+    A.row(k).setZero();
+    A.col(k).setZero();
+    A(k, k) = 1;
+  }
+  Vector8d b = n.gradient;
+  b.tail(8 - parameters).setZero();
+  const Eigen::LLT<Matrix8d> factored(A);
+  if (factored.info() != Eigen::Success) return std::nullopt;
+  const Vector8d step = factored.solve(b);
+  return step.allFinite() ? std::optional<Vector8d>(step) : std::nullopt;
+}
+
+/// Largest distance a step moves a corner of the template, in coordinates of warp().
+double reach(const Eigen::Matrix3d& W, const Eigen::Matrix3d& scaled,
+             const TemplateBlocks& blocks) {
+  double farthest = 0;
+  for (const Pixel& corner : template_corners(blocks.width, blocks.height)) {
+    const Eigen::Vector3d p = scaled * Eigen::Vector3d(corner.u, corner.v, 1);
+    const Eigen::Vector3d q = W * p;
+    farthest = std::max(farthest, (q.head<2>() / q.z() - p.head<2>()).norm());
+  }
+  return farthest;
+}
+
+/// Derivatives of the corners in the image, px, by the parameters of a warp before H.
+Matrix8d corner_derivatives(const Homography& H, const Eigen::Matrix3d& scaled,
+                            const TemplateBlocks& blocks) {
+  const Eigen::Matrix3d G = H.H * scaled.inverse();
+  Matrix8d J;
+  int row = 0;
+  for (const Pixel& corner : template_corners(blocks.width, blocks.height)) {
+    const Eigen::Vector3d p = scaled * Eigen::Vector3d(corner.u, corner.v, 1);
+    const double x = p.x();
+    const double y = p.y();
+    Eigen::Matrix<double, 2, 8> motion;           // of the point, by the parameters of warp()
+    motion << 1, 0, x, -y, x, y, -x * x, -x * y,  //
+        0, 1, y, x, -y, x, -x * y, -y * y;
+    const Eigen::Vector3d q = G * p;
+    Eigen::Matrix2d D;  // of the image point by the point
+    D << G(0, 0) - G(2, 0) * q.x() / q.z(), G(0, 1) - G(2, 1) * q.x() / q.z(),
+        G(1, 0) - G(2, 0) * q.y() / q.z(), G(1, 1) - G(2, 1) * q.y() / q.z();
+    J.middleRows<2>(row) = D * motion / q.z();
+    row += 2;
+  }
+  return J;
+}
+
+}  // namespace
+
+struct Aligner::Scratch {
+  Eigen::Matrix3d scaled;
+  Eigen::Matrix3d from_scaled;
+  std::vector<std::vector<kernel::Block>> blocks;  // by level
+  std::vector<kernel::BlockSums> sums;
+  std::vector<BlockLikeness> likeness;
+  kernel::SampleBlocks sample = nullptr;
+  kernel::SampleBlocks score = nullptr;
+
+  /// Looks at a level of the image with a level of the template.
+  void look(kernel::SampleBlocks kernel_of, const ImagePyramid& image, const LevelPair& at,
+            const Homography& H, int count) {
+    const Eigen::Matrix3d G =
+        level0_from_level(at.in_image).inverse() * H.H * level0_from_level(at.in_template);
+    const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> h = (G / G(2, 2)).cast<float>();
+    kernel_of(sampled(image.level(at.in_image)), h.data(), blocks[std::size_t(at.in_template)].data(),
+         count, sums.data());
+  }
+
+  /// The motion of the template that would explain what the image shows; empty when it does not
+  /// determine one.
+  std::optional<Eigen::Matrix3d> step(const TemplateBlocks& all, const AlignOptions& options,
+                                      const ImagePyramid& image, const LevelPair& at,
+                                      const Homography& H) {
+    const BlockLevel& level = all.levels[std::size_t(at.in_template)];
+    look(sample, image, at, H, int(level.blocks.size()));
+    const Normal n = normal_equations(level, sums, options, all.options);
+    auto parameters = solved(n, n.blocks >= kBlocksForHomography ? 8 : n.blocks >= 2 ? 4 : 2);
+    if (!parameters) return std::nullopt;
+    const double far = std::max(reach(warp(*parameters), scaled, all), parameters->norm());
+    if (far > kLargestStep) *parameters *= kLargestStep / far;
+    return warp(*parameters);
+  }
+
+  Agreement agreement_of(const BlockLevel& level, const AgreementOptions& options) {
+    likeness.clear();
+    for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+      const bool is_visible = sums[i].is_visible != 0;
+      likeness.push_back({is_visible, is_visible ? zncc(level.blocks[i], sums[i]) : 0});
+    }
+    return agreement(likeness, options);
+  }
+
+  /// How well the image agrees with the answer, and how sure that makes it.
+  void finish(const TemplateBlocks& all, const AlignOptions& options, const ImagePyramid& image,
+              const LevelPair& finest, Alignment& result) {
+    const BlockLevel& level = all.levels[std::size_t(finest.in_template)];
+    look(sample, image, finest, result.image_from_template, int(level.blocks.size()));
+    const Normal n = normal_equations(level, sums, options, all.options);
+    result.agreement = result.coarser = agreement_of(level, options.agreement);
+    const double per_residual = std::max(n.freedom > 0 ? n.residual / n.freedom : 1, 1e-6);
+    const Matrix8d J = corner_derivatives(result.image_from_template, scaled, all);
+    const Matrix8d covariance = n.information.ldlt().solve(J.transpose());
+    result.corner_covariance = kCorrelatedPixels * per_residual * J * covariance +
+                               kLeastDeviationPx * kLeastDeviationPx * Matrix8d::Identity();
+    if (pair_count(finest, all, image) > 1) {
+      const LevelPair next{finest.in_template + 1, finest.in_image + 1};
+      const BlockLevel& half = all.levels[std::size_t(next.in_template)];
+      look(score, image, next, result.image_from_template, int(half.blocks.size()));
+      result.coarser = agreement_of(half, options.agreement);
+    }
+    result.is_accepted = kestrel::is_accepted(result.agreement, options.agreement) ||
+                         kestrel::is_accepted(result.coarser, options.agreement);
+  }
+};
+
+void AlignOptions::check() const {
+  require(max_iterations >= 1 && max_iterations <= 100, "align.max_iterations: must be 1 to 100");
+  require(tolerance_px > 0 && std::isfinite(tolerance_px), "align.tolerance_px: must be above 0");
+  require(weight_scale > 0 && std::isfinite(weight_scale), "align.weight_scale: must be above 0");
+  require(search_radius_px >= 0 && search_radius_px <= 32,
+          "align.search_radius_px: must be 0 to 32");
+  agreement.check();
+}
+
+Aligner::Aligner(TemplateBlocks blocks, const AlignOptions& options)
+    : blocks_(std::move(blocks)), options_(options), scratch_(std::make_unique<Scratch>()) {
+  options.check();
+  require(!blocks_.levels.empty(), "template: has no level");
+  scratch_->scaled = scaled_from_template(blocks_.width, blocks_.height);
+  scratch_->from_scaled = scratch_->scaled.inverse();
+  const bool avx2 = use_avx2(options.simd);
+  scratch_->sample = avx2 ? kernel::sample_blocks_avx2 : kernel::sample_blocks_baseline;
+  scratch_->score = avx2 ? kernel::score_blocks_avx2 : kernel::score_blocks_baseline;
+  std::size_t most = 0;
+  for (const BlockLevel& level : blocks_.levels) {
+    std::vector<kernel::Block>& known = scratch_->blocks.emplace_back();
+    for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+      known.push_back({float(level.blocks[i].u), float(level.blocks[i].v),
+                       level.textures.data() + i * kPixels,
+                       level.derivatives.data() + i * kPixels * kernel::kParameters});
+    }
+    most = std::max(most, level.blocks.size());
+  }
+  scratch_->sums.resize(most);
+  scratch_->likeness.reserve(most);
+}
+
+Aligner::~Aligner() = default;
+Aligner::Aligner(Aligner&&) noexcept = default;
+Aligner& Aligner::operator=(Aligner&&) noexcept = default;
+
+int Aligner::levels() const { return int(blocks_.levels.size()); }
+
+double Aligner::likeness(const ImagePyramid& image, const Homography& image_from_template) {
+  const LevelPair finest = finest_pair(image_from_template, blocks_, image);
+  const int coarser = pair_count(finest, blocks_, image) - 1;
+  const LevelPair at{finest.in_template + coarser, finest.in_image + coarser};
+  const BlockLevel& level = blocks_.levels[std::size_t(at.in_template)];
+  scratch_->look(scratch_->score, image, at, image_from_template, int(level.blocks.size()));
+  double explained = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+    const double weight = std::sqrt(level.blocks[i].texture_norm2);
+    all += weight;
+    if (scratch_->sums[i].is_visible == 0) continue;
+    const double c = std::max(zncc(level.blocks[i], scratch_->sums[i]), 0.0);
+    explained += weight * c * c;
+  }
+  return all > 0 ? explained / all : 0;
+}
+
+Homography Aligner::search(const ImagePyramid& image, const Homography& start) {
+  const LevelPair finest = finest_pair(start, blocks_, image);
+  const int coarser = pair_count(finest, blocks_, image) - 1;
+  const double step = double(1 << (finest.in_image + coarser));
+  Homography best = start;
+  double most = likeness(image, start);
+  for (int j = -options_.search_radius_px; j <= options_.search_radius_px; ++j) {
+    for (int i = -options_.search_radius_px; i <= options_.search_radius_px; ++i) {
+      Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+      shift(0, 2) = i * step;
+      shift(1, 2) = j * step;
+      const Homography shifted{shift * start.H};
+      const double alike = likeness(image, shifted);
+      if (alike <= most) continue;
+      most = alike;
+      best = shifted;
+    }
+  }
+  return best;
+}
+
+std::optional<Alignment> Aligner::align(const ImagePyramid& image, const Homography& start) {
+  Alignment result;
+  result.image_from_template = start;
+  Homography& H = result.image_from_template;
+  const LevelPair finest = finest_pair(start, blocks_, image);
+  const double px = scale(start, blocks_) * std::max(blocks_.width, blocks_.height) / 2;
+  for (int k = pair_count(finest, blocks_, image) - 1; k >= 0; --k) {
+    const LevelPair at{finest.in_template + k, finest.in_image + k};
+    const int iterations = k == 0 ? options_.max_iterations : (options_.max_iterations + 1) / 2;
+    // A coarse level need only lead into the range of the next: half a pixel of its own.
+    const double tolerance = (k == 0 ? options_.tolerance_px : 0.5 * double(1 << k)) / px;
+    for (int i = 0; i < iterations; ++i) {
+      ++result.iterations;
+      const auto W = scratch_->step(blocks_, options_, image, at, H);
+      if (!W) break;
+      H.H = H.H * (scratch_->from_scaled * W->inverse() * scratch_->scaled);
+      H.H /= H.H(2, 2);
+      if (reach(*W, scratch_->scaled, blocks_) < tolerance) break;
+    }
+  }
+  if (!is_plausible(H, blocks_.width, blocks_.height)) return std::nullopt;
+  scratch_->finish(blocks_, options_, image, finest, result);
+  if (result.agreement.visible_share() < options_.agreement.min_visible_share) return std::nullopt;
+  return result;
+}
+
+}  // namespace kestrel

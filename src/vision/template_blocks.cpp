@@ -1,0 +1,242 @@
+#include "kestrel/vision/template_blocks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/LU>
+
+#include "kestrel/vision/image_pyramid.hpp"
+
+#include "block_kernels.hpp"
+
+namespace kestrel {
+namespace {
+
+constexpr int kSide = kernel::kBlockSide;
+constexpr int kPixels = kernel::kBlockPixels;
+
+/// Below this a level holds no more than one block a side: too few to tell which of them to trust.
+constexpr int kMinLevelSidePx = 12;
+
+using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Derivatives = Eigen::Matrix<double, kPixels, 8>;
+using Texture = Eigen::Matrix<double, kPixels, 1>;
+
+Plane plane(const PyramidLevel& level) {
+  Plane grey(level.bottom, level.right);
+  for (int y = 0; y < level.bottom; ++y) {
+    for (int x = 0; x < level.right; ++x) grey(y, x) = level.pixels[y * level.stride + x];
+  }
+  return grey;
+}
+
+/// Difference across two pixels, one at the border, px of the level.
+float slope(float before, float after, int steps) {
+  return (after - before) / float(std::max(steps, 1));
+}
+
+struct Gradient {
+  Plane x;
+  Plane y;
+};
+
+Gradient gradient(const Plane& grey) {
+  const int rows = int(grey.rows());
+  const int cols = int(grey.cols());
+  Gradient g{Plane(rows, cols), Plane(rows, cols)};
+  for (int y = 0; y < rows; ++y) {
+    const int above = std::max(y - 1, 0);
+    const int below = std::min(y + 1, rows - 1);
+    for (int x = 0; x < cols; ++x) {
+      const int left = std::max(x - 1, 0);
+      const int right = std::min(x + 1, cols - 1);
+      g.x(y, x) = slope(grey(y, left), grey(y, right), right - left);
+      g.y(y, x) = slope(grey(above, x), grey(below, x), below - above);
+    }
+  }
+  return g;
+}
+
+/// A place for a block and how much it shows.
+struct Site {
+  int u = 0;
+  int v = 0;
+  double texture = 0;  // sum of squared gradients
+};
+
+/// count starts of blocks from 0 to length - kSide, evenly spread.
+std::vector<int> starts(int length) {
+  const int count = (length + kSide - 1) / kSide;
+  std::vector<int> result;
+  for (int i = 0; i < count; ++i) {
+    result.push_back(count == 1 ? 0 : (i * (length - kSide) + (count - 1) / 2) / (count - 1));
+  }
+  return result;
+}
+
+double norm2(const Plane& grey, int u, int v) {
+  const auto block = grey.block<kSide, kSide>(v, u).cast<double>();
+  return (block - block.mean()).square().sum();
+}
+
+std::vector<Site> sites(const Plane& grey, const Gradient& g, double noise_grey) {
+  const double least = kPixels * noise_grey * noise_grey;
+  std::vector<Site> result;
+  for (const int v : starts(int(grey.rows()))) {
+    for (const int u : starts(int(grey.cols()))) {
+      if (norm2(grey, u, v) <= 2 * least) continue;  // as much noise as texture
+      const double texture = (g.x.block<kSide, kSide>(v, u).square().sum()) +
+                             double(g.y.block<kSide, kSide>(v, u).square().sum());
+      result.push_back({u, v, texture});
+    }
+  }
+  return result;
+}
+
+/// The sites with most texture of each cell of a grid of about count cells; what is left of the
+/// count goes to the best of the others.
+std::vector<Site> spread(std::vector<Site> all, int width, int height, int count) {
+  if (int(all.size()) <= count) return all;
+  const double cell = std::sqrt(double(width) * height / count);
+  const int columns = int(std::ceil(width / cell));
+  const auto cell_of = [&](const Site& s) {
+    return int((s.v + kSide / 2) / cell) * columns + int((s.u + kSide / 2) / cell);
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Site& a, const Site& b) { return a.texture > b.texture; });
+  std::vector<bool> taken(std::size_t(columns) * std::size_t(std::ceil(height / cell) + 1), false);
+  const auto others = std::stable_partition(all.begin(), all.end(), [&](const Site& s) {
+    const auto c = std::size_t(cell_of(s));
+    const bool first = !taken[c];
+    taken[c] = true;
+    return first;
+  });
+  (void)others;  // still the most textured first
+  all.resize(std::size_t(count));
+  return all;
+}
+
+/// Derivatives of the block's pixels by the parameters of warp().
+Derivatives derivatives(const Gradient& g, const Site& site, const Eigen::Matrix3d& scaled) {
+  const double per_px = scaled(0, 0);
+  Derivatives J;
+  for (int i = 0; i < kPixels; ++i) {
+    const int u = site.u + i % kSide;
+    const int v = site.v + i / kSide;
+    const double x = scaled(0, 0) * u + scaled(0, 2);
+    const double y = scaled(1, 1) * v + scaled(1, 2);
+    const double gx = double(g.x(v, u)) / per_px;
+    const double gy = double(g.y(v, u)) / per_px;
+    const double radial = gx * x + gy * y;
+    J.row(i) << gx, gy, radial, gy * x - gx * y, gx * x - gy * y, gx * y + gy * x, -x * radial,
+        -y * radial;
+  }
+  return J;
+}
+
+/// Without what a change of gain or bias could explain.
+Derivatives projected(Derivatives J, const Texture& texture) {
+  J.rowwise() -= J.colwise().mean().eval();
+  const double norm2 = texture.squaredNorm();
+  J -= texture * (texture.transpose() * J).eval() / norm2;
+  return J;
+}
+
+void append(const Plane& grey, const Gradient& g, const Site& site, const Eigen::Matrix3d& scaled,
+            BlockLevel& level) {
+  Texture texture;
+  for (int i = 0; i < kPixels; ++i) {
+    texture[i] = grey(site.v + i / kSide, site.u + i % kSide);
+  }
+  texture.array() -= texture.mean();
+  const Derivatives J = projected(derivatives(g, site, scaled), texture);
+  TemplateBlock block;
+  block.u = site.u;
+  block.v = site.v;
+  block.texture_norm2 = texture.squaredNorm();
+  block.information = J.transpose() * J;
+  level.blocks.push_back(block);
+  for (int i = 0; i < kPixels; ++i) level.textures.push_back(float(texture[i]));
+  for (int p = 0; p < 8; ++p) {
+    for (int i = 0; i < kPixels; ++i) level.derivatives.push_back(float(J(i, p)));
+  }
+}
+
+BlockLevel cut(const PyramidLevel& pixels, const Eigen::Matrix3d& scaled, int max_blocks,
+               double noise_grey) {
+  const Plane grey = plane(pixels);
+  const Gradient g = gradient(grey);
+  BlockLevel level;
+  level.width = pixels.right;
+  level.height = pixels.bottom;
+  for (const Site& site :
+       spread(sites(grey, g, noise_grey), level.width, level.height, max_blocks)) {
+    append(grey, g, site, scaled, level);
+  }
+  return level;
+}
+
+int level_count(int width, int height) {
+  int levels = 1;
+  while (levels < ImagePyramid::kMaxLevels &&
+         (std::min(width, height) >> levels) >= kMinLevelSidePx) {
+    ++levels;
+  }
+  return levels;
+}
+
+void require(bool holds, const char* message) {
+  if (!holds) throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+void BlockOptions::check() const {
+  require(max_blocks >= 4, "blocks.max_blocks: must be at least 4");
+  require(max_coarse_blocks >= 4, "blocks.max_coarse_blocks: must be at least 4");
+  require(noise_grey > 0 && noise_grey <= 64, "blocks.noise_grey: must be above 0 and at most 64");
+  require(model_error >= 0 && model_error <= 1, "blocks.model_error: must be 0 to 1");
+}
+
+Eigen::Matrix3d warp(const Vector8d& p) {
+  Eigen::Matrix3d W;
+  W << 1 + p[2] + p[4], p[5] - p[3], p[0],  //
+      p[3] + p[5], 1 + p[2] - p[4], p[1],   //
+      p[6], p[7], 1;
+  return W;
+}
+
+Eigen::Matrix3d scaled_from_template(double width_px, double height_px) {
+  const double half = std::max(width_px, height_px) / 2;
+  Eigen::Matrix3d S;
+  S << 1 / half, 0, -(width_px - 1) / (2 * half),  //
+      0, 1 / half, -(height_px - 1) / (2 * half),  //
+      0, 0, 1;
+  return S;
+}
+
+TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& options) {
+  options.check();
+  require(!picture.empty() && picture.type() == CV_8UC1 &&
+              std::min(picture.cols, picture.rows) >= kSide,
+          "picture: must be 8-bit grey and at least 8x8 px");
+  TemplateBlocks result;
+  result.width = picture.cols;
+  result.height = picture.rows;
+  result.options = options;
+  const Eigen::Matrix3d scaled = scaled_from_template(picture.cols, picture.rows);
+  ImagePyramid pyramid;
+  const int levels = level_count(picture.cols, picture.rows);
+  pyramid.look(picture, {0, 0, double(picture.cols), double(picture.rows)}, levels, Simd::Auto);
+  for (int k = 0; k < levels; ++k) {
+    const int most = k == 0 ? options.max_blocks : options.max_coarse_blocks;
+    result.levels.push_back(
+        cut(pyramid.level(k), scaled * level0_from_level(k), most, options.noise_grey));
+  }
+  return result;
+}
+
+}  // namespace kestrel
