@@ -155,6 +155,30 @@ double signed_area(const std::array<Pixel, 4>& corners) {
   return twice / 2;
 }
 
+std::optional<Homography> homography_from_outline(const std::array<Pixel, 4>& corners,
+                                                  double width_px, double height_px) {
+  const auto& [a, b, c, d] = corners;
+  // The unit square to the four points: p = (g x + h y) q + ... with the sum of opposite corners
+  // telling how far the outline is from a parallelogram.
+  const double su = a.u - b.u + c.u - d.u;
+  const double sv = a.v - b.v + c.v - d.v;
+  const double du1 = b.u - c.u;
+  const double dv1 = b.v - c.v;
+  const double du2 = d.u - c.u;
+  const double dv2 = d.v - c.v;
+  const double area = du1 * dv2 - du2 * dv1;
+  const double g = (su * dv2 - du2 * sv) / area;
+  const double h = (du1 * sv - su * dv1) / area;
+  Eigen::Matrix3d square;
+  square << b.u - a.u + g * b.u, d.u - a.u + h * d.u, a.u,  //
+      b.v - a.v + g * b.v, d.v - a.v + h * d.v, a.v,        //
+      g, h, 1;
+  const Eigen::Vector3d to_square(1 / (width_px - 1), 1 / (height_px - 1), 1);
+  const Homography H{square * to_square.asDiagonal()};
+  if (!H.H.allFinite() || !(std::abs(H.H.determinant()) > kOnALine)) return std::nullopt;
+  return H;
+}
+
 bool is_plausible(const Homography& image_from_template, double width_px, double height_px,
                   const OutlineOptions& options) {
   const Eigen::Matrix3d& H = image_from_template.H;

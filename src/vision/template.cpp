@@ -86,13 +86,31 @@ Keypoints enough(Keypoints keypoints) {
   return keypoints;
 }
 
+/// Blocks enough that as many as the agreement asks for can be alike.
+TemplateBlocks enough(TemplateBlocks blocks, int needed) {
+  const int found = blocks.levels.empty() ? 0 : int(blocks.levels.front().blocks.size());
+  if (found < needed) {
+    throw std::invalid_argument("template: too little texture (" + std::to_string(found) +
+                                " textured blocks of 8x8 px, " + std::to_string(needed) +
+                                " needed); choose a larger or more textured rectangle");
+  }
+  return blocks;
+}
+
 }  // namespace
 
-Template::Template(const cv::Mat& gray, const PixelBox& box, const SiftOptions& sift,
-                   const MatchOptions& match)
-    : box_(checked(gray, box)),
-      picture_(cut(gray, box)),
-      keypoints_(enough(learned(gray, box, sift))),
-      matcher_(keypoints_.descriptors, match) {}
+Template::Template(const cv::Mat& gray, const PixelBox& box, const TrackOptions& options)
+    : box_(checked(gray, box)), picture_(cut(gray, box)) {
+  options.check();
+  if (options.method == TrackMethod::Paper) {
+    keypoints_ = enough(learned(gray, box, options.sift));
+    matcher_.emplace(keypoints_.descriptors, options.match);
+    return;
+  }
+  blocks_ = enough(template_blocks(picture_, options.blocks), options.align.agreement.min_alike);
+  FastSiftOptions sift = options.detect.sift;
+  sift.simd = options.simd;
+  features_ = learn_features(gray, box, sift);
+}
 
 }  // namespace kestrel

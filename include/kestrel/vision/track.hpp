@@ -1,69 +1,85 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "kestrel/geometry/homography.hpp"
-#include "kestrel/vision/frame.hpp"
-#include "kestrel/vision/keypoints.hpp"
-#include "kestrel/vision/match.hpp"
-#include "kestrel/vision/robust_homography.hpp"
-#include "kestrel/vision/template.hpp"
+#include "kestrel/vision/agreement.hpp"
+#include "kestrel/vision/corner_covariance.hpp"
+#include "kestrel/vision/corner_motion.hpp"
 
 namespace kestrel {
 
-/// All parameters of the tracker of the paper's figure 2.
-struct TrackOptions {
-  SiftOptions sift;
-  MatchOptions match;
-  RansacOptions ransac;
-  OutlineOptions outline;
-  double max_outline_deviation_px = 3;  // so that an outline 10 px off is a three-sigma event
-
-  /// Throws std::invalid_argument that names the first option out of range.
-  void check() const;
-};
-
-/// What the tracker carries from one frame to the next.
-struct TrackState {
-  PixelBox window;  // where to look next
+/// What is known of the target in a frame.
+enum class TrackStatus {
+  Found,     // seen in this frame
+  Coasting,  // not seen, but seen a short time ago: its place is a prediction
+  Lost,      // not seen
 };
 
 /// Why a frame gave no answer.
 enum class Miss {
-  None,          // the object was found
+  None,          // the target was found
   NoImage,       // the frame is empty, or not 8-bit grey
   FewKeypoints,  // too little texture in the window
   FewMatches,    // fewer matches than the consensus asks for
-  NoConsensus,   // RANSAC ended without consensus
+  NoConsensus,   // no homography that enough matches agree with
   BadOutline,    // the homography is no possible view of the template
   Undetermined,  // the inliers leave the outline too uncertain
+  NotAlike,      // the pixels at the place found are not the template's
+  Ambiguous,     // two places look like the template equally well
+};
+
+/// What the answer of a frame comes from.
+enum class TrackStage {
+  None,      // no answer
+  Aligned,   // the pixels, followed from the frame before
+  Searched,  // the same, after a search of the neighbourhood
+  Detected,  // keypoints
+};
+
+/// What the tracker carries from one frame to the next. Values only, of fixed size.
+struct TrackState {
+  PixelBox window;                      // where to look for keypoints next
+  std::optional<CornerMotion> motion;   // as of the last frame the target was found in
+  std::optional<Homography> last_seen;  // image_from_template of that frame
+  double last_confidence = 0;           // of that frame
+  int weak_frames = 0;                  // weak answers in a row
+  std::int64_t sweep = 0;               // parts of the frame searched since the target was lost
 };
 
 /// What was seen in one frame.
 struct Track {
+  TrackStatus status = TrackStatus::Lost;
+  TrackStage stage = TrackStage::None;
   std::optional<Homography> image_from_template;  // only when found
+  std::optional<Homography> predicted;            // only when coasting
   Miss miss = Miss::None;
-  PixelBox window;  // where it looked, px
-  int keypoints = 0;
+  double age_s = 0;  // since the target was found; 0 when found, or never found
+  /// 0 to 1. Found: the share of the template's visible blocks that the image shows, times how well
+  /// (Paper: the share of the matches that agree). Coasting: the last one, falling to 0. Lost: 0.
+  double confidence = 0;
+  /// Of the template's corners in the image, px^2; when found or coasting.
+  CornerCovariance corner_covariance = CornerCovariance::Zero();
+  Agreement agreement;           // of the pixels, at the best place looked at; not of Paper
+  PixelBox window;               // where it looked, px
+  int keypoints = 0;             // in the window; 0 when none were looked for
   int matches = 0;
   int trials = 0;
-  std::vector<PixelPair> inliers;
+  std::vector<PixelPair> inliers;  // pairs of keypoints that agree; none where none were looked for
   TrackState next;
 
   bool found() const { return image_from_template.has_value(); }
 };
 
-/// State before the first frame: window twice the template's size about the place it was learned
-/// at.
-TrackState start_tracking(const Template& model, int image_width, int image_height);
-
-/// Looks for the template in one frame, inside state.window: the body of the paper's figure 2. On
-/// success the next window follows the projected centre and size; on failure it doubles.
-Track track(const Template& model, const Frame& frame, const TrackState& state,
-            const TrackOptions& options);
+/// One word for a log: "found", "coasting", "lost".
+const char* name(TrackStatus status);
 
 /// One word for a log: "found", "few_keypoints", ...
 const char* name(Miss miss);
+
+/// One word for a log: "none", "aligned", "searched", "detected".
+const char* name(TrackStage stage);
 
 }  // namespace kestrel

@@ -1,0 +1,67 @@
+#include "kestrel/vision/track_options.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace kestrel {
+namespace {
+
+void require(bool holds, const char* message) {
+  if (!holds) throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+void DetectOptions::check() const {
+  sift.check();
+  match.check();
+  fit.check();
+  require(max_px_per_frame >= 64 * 64, "detect.max_px_per_frame: must be at least 4096");
+}
+
+void TrackOptions::check() const {
+  sift.check();
+  match.check();
+  ransac.check();
+  detect.check();
+  blocks.check();
+  align.check();
+  motion.check();
+  require(max_outline_deviation_px > 0 && std::isfinite(max_outline_deviation_px),
+          "max_outline_deviation_px: must be above 0");
+  require(coast_s >= 0 && std::isfinite(coast_s), "coast_s: must be at least 0");
+  require(weak_share >= 0 && weak_share <= 1, "weak_share: must be 0 to 1");
+  require(weak_frames >= 1, "weak_frames: must be at least 1");
+  require(outline.min_area_ratio > 0 && outline.min_area_ratio < 1,
+          "outline.min_area_ratio: must be between 0 and 1");
+  require(outline.max_area_ratio > 1 && std::isfinite(outline.max_area_ratio),
+          "outline.max_area_ratio: must be above 1");
+  require(outline.min_side_px > 0 && std::isfinite(outline.min_side_px),
+          "outline.min_side_px: must be above 0");
+}
+
+const char* name(TrackMethod method) {
+  switch (method) {
+    case TrackMethod::Paper:
+      return "paper";
+    case TrackMethod::Detect:
+      return "detect";
+    case TrackMethod::Hybrid:
+      return "hybrid";
+  }
+  return "unknown";
+}
+
+const char* name(WindowPolicy policy) {
+  switch (policy) {
+    case WindowPolicy::Fixed:
+      return "fixed";
+    case WindowPolicy::Doubling:
+      return "doubling";
+    case WindowPolicy::Kalman:
+      return "kalman";
+  }
+  return "unknown";
+}
+
+}  // namespace kestrel
