@@ -43,9 +43,18 @@ Agreement agreement(std::vector<BlockLikeness>& likeness, const AgreementOptions
   return result;
 }
 
-bool is_accepted(const Agreement& a, const AgreementOptions& options) {
-  return a.alike >= options.min_alike && a.alike_share() >= options.min_alike_share &&
-         a.better_half >= options.min_better_half && a.visible_share() >= options.min_visible_share;
+double PlaceAgreement::alike_share() const {
+  return coarse.visible > 0 ? (fine.alike_share() + coarse.alike_share()) / 2 : fine.alike_share();
+}
+
+double PlaceAgreement::better_half() const {
+  return coarse.visible > 0 ? (fine.better_half + coarse.better_half) / 2 : fine.better_half;
+}
+
+bool is_accepted(const PlaceAgreement& a, const AgreementOptions& options) {
+  return a.fine.alike + a.coarse.alike >= options.min_alike &&
+         a.alike_share() >= options.min_alike_share && a.better_half() >= options.min_better_half &&
+         a.fine.visible_share() >= options.min_visible_share;
 }
 
 }  // namespace kestrel

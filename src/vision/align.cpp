@@ -192,8 +192,8 @@ struct Aligner::Scratch {
     const Eigen::Matrix3d G =
         level0_from_level(at.in_image).inverse() * H.H * level0_from_level(at.in_template);
     const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> h = (G / G(2, 2)).cast<float>();
-    kernel_of(sampled(image.level(at.in_image)), h.data(), blocks[std::size_t(at.in_template)].data(),
-         count, sums.data());
+    kernel_of(sampled(image.level(at.in_image)), h.data(),
+              blocks[std::size_t(at.in_template)].data(), count, sums.data());
   }
 
   /// The motion of the template that would explain what the image shows; empty when it does not
@@ -226,7 +226,7 @@ struct Aligner::Scratch {
     const BlockLevel& level = all.levels[std::size_t(finest.in_template)];
     look(sample, image, finest, result.image_from_template, int(level.blocks.size()));
     const Normal n = normal_equations(level, sums, options, all.options);
-    result.agreement = result.coarser = agreement_of(level, options.agreement);
+    result.agreement.fine = agreement_of(level, options.agreement);
     const double per_residual = std::max(n.freedom > 0 ? n.residual / n.freedom : 1, 1e-6);
     const Matrix8d J = corner_derivatives(result.image_from_template, scaled, all);
     const Matrix8d covariance = n.information.ldlt().solve(J.transpose());
@@ -236,10 +236,9 @@ struct Aligner::Scratch {
       const LevelPair next{finest.in_template + 1, finest.in_image + 1};
       const BlockLevel& half = all.levels[std::size_t(next.in_template)];
       look(score, image, next, result.image_from_template, int(half.blocks.size()));
-      result.coarser = agreement_of(half, options.agreement);
+      result.agreement.coarse = agreement_of(half, options.agreement);
     }
-    result.is_accepted = kestrel::is_accepted(result.agreement, options.agreement) ||
-                         kestrel::is_accepted(result.coarser, options.agreement);
+    result.is_accepted = kestrel::is_accepted(result.agreement, options.agreement);
   }
 };
 
@@ -342,7 +341,8 @@ std::optional<Alignment> Aligner::align(const ImagePyramid& image, const Homogra
   }
   if (!is_plausible(H, blocks_.width, blocks_.height)) return std::nullopt;
   scratch_->finish(blocks_, options_, image, finest, result);
-  if (result.agreement.visible_share() < options_.agreement.min_visible_share) return std::nullopt;
+  if (result.agreement.fine.visible_share() < options_.agreement.min_visible_share)
+    return std::nullopt;
   return result;
 }
 

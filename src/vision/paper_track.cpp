@@ -72,7 +72,7 @@ Track look(const Template& model, const Frame& frame, const PixelBox& window,
 }  // namespace
 
 Track paper_track(const Template& model, const Frame& frame, const TrackState& state,
-            const TrackOptions& options) {
+                  const TrackOptions& options) {
   if (!has_image(frame)) {  // nothing was looked at, so the next frame looks where this one should
     Track blind;
     blind.miss = Miss::NoImage;

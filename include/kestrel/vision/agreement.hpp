@@ -15,10 +15,10 @@ struct BlockLikeness {
 /// the whole does not survive.
 struct AgreementOptions {
   double alike_zncc = 0.7;          // a block above this shows what the template shows
-  double min_alike_share = 0.3;     // of the visible blocks
+  double min_alike_share = 0.4;     // of the visible blocks, mean of the levels
   double min_better_half = 0.7;     // mean correlation of the better half of the visible blocks
   double min_visible_share = 0.25;  // of the textured blocks
-  int min_alike = 6;                // blocks: fewer can be alike by chance
+  int min_alike = 8;                // blocks of all levels: fewer can be alike by chance
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
@@ -38,7 +38,20 @@ struct Agreement {
 /// Counts; reorders what it is given.
 Agreement agreement(std::vector<BlockLikeness>& likeness, const AgreementOptions& options);
 
+/// An image's agreement with the template at two levels of detail: noise spoils the finer one
+/// first, and the coarser one has fewer blocks, which are alike by chance more often.
+struct PlaceAgreement {
+  Agreement fine;
+  Agreement coarse;  // no blocks when the template has no second level
+
+  /// Mean of the levels that have visible blocks, 0 to 1.
+  double alike_share() const;
+  double better_half() const;
+  /// How much of the template is shown and how well, 0 to 1: the product of the two.
+  double shown() const { return alike_share() * (better_half() > 0 ? better_half() : 0); }
+};
+
 /// True when the image shows the template beyond doubt.
-bool is_accepted(const Agreement& agreement, const AgreementOptions& options);
+bool is_accepted(const PlaceAgreement& agreement, const AgreementOptions& options);
 
 }  // namespace kestrel

@@ -33,10 +33,9 @@ struct Alignment {
   Homography image_from_template;
   /// Of the template's corners in the image (u0, v0, ..., u3, v3), px^2, from the residuals.
   Matrix8d corner_covariance = Matrix8d::Identity();
-  Agreement agreement;       // of the finest level used
-  Agreement coarser;         // of the next one; equal to agreement when there is none
-  bool is_accepted = false;  // one of the two is
-  int iterations = 0;        // of all levels
+  PlaceAgreement agreement;  // of the finest level used and of the next one
+  bool is_accepted = false;
+  int iterations = 0;  // of all levels
 };
 
 /// Aligns a template with frames. Keeps its memory: allocates nothing after the first frame.

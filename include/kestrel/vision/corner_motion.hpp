@@ -45,7 +45,8 @@ CornerMotion first_motion(const std::array<Pixel, 4>& corners,
 /// The motion carried on to a later time; as it is for an earlier or unknown one.
 CornerMotion predicted(CornerMotion motion, double stamp_s, const MotionOptions& options);
 
-/// The motion, predicted to the time of the sight, after the corners were seen with these variances.
+/// The motion, predicted to the time of the sight, after the corners were seen with these
+/// variances.
 CornerMotion corrected(CornerMotion motion, const std::array<Pixel, 4>& corners,
                        const Eigen::Matrix<double, 8, 1>& variances);
 

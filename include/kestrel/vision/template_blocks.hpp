@@ -13,8 +13,9 @@ using Vector8d = Eigen::Matrix<double, 8, 1>;
 
 /// How the template is cut into blocks.
 struct BlockOptions {
-  int max_blocks = 96;         // of the finest level: bounds the time of a frame
-  int max_coarse_blocks = 40;  // of each other level, which need only lead into the next one's range
+  int max_blocks = 96;  // of the finest level: bounds the time of a frame
+  int max_coarse_blocks =
+      40;                 // of each other level, which need only lead into the next one's range
   double noise_grey = 2;  // standard deviation of a pixel; a block that varies less shows nothing
   double model_error =
       0.1;  // what gain and bias leave unexplained, as a share of a block's contrast

@@ -62,9 +62,9 @@ struct Track {
   double confidence = 0;
   /// Of the template's corners in the image, px^2; when found or coasting.
   CornerCovariance corner_covariance = CornerCovariance::Zero();
-  Agreement agreement;           // of the pixels, at the best place looked at; not of Paper
-  PixelBox window;               // where it looked, px
-  int keypoints = 0;             // in the window; 0 when none were looked for
+  PlaceAgreement agreement;  // of the pixels, at the best place looked at; not of Paper
+  PixelBox window;           // where it looked, px
+  int keypoints = 0;         // in the window; 0 when none were looked for
   int matches = 0;
   int trials = 0;
   std::vector<PixelPair> inliers;  // pairs of keypoints that agree; none where none were looked for

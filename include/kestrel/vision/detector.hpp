@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "kestrel/geometry/pixel.hpp"
+#include "kestrel/vision/template.hpp"
+#include "kestrel/vision/track_options.hpp"
+#include "kestrel/vision/vote_homography.hpp"
+
+namespace kestrel {
+
+/// Where keypoints say the template may be.
+struct Detection {
+  int keypoints = 0;                         // in the window
+  std::vector<AffinePair> pairs;             // keypoints of the template seen in the image
+  std::vector<FittedHomography> hypotheses;  // best supported first
+};
+
+/// Finds a template in a window by its keypoints. Keeps its memory from frame to frame.
+class Detector {
+ public:
+  explicit Detector(const TrackOptions& options);
+  ~Detector();
+  Detector(Detector&&) noexcept;
+  Detector& operator=(Detector&&) noexcept;
+
+  /// Keypoints of the part of an 8-bit grey image inside window, matched with those of the model
+  /// (learned for Detect or Hybrid) and fitted.
+  Detection detect(const Template& model, const cv::Mat& gray, const PixelBox& window);
+
+ private:
+  struct Memory;
+  TrackOptions options_;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace kestrel

@@ -1,0 +1,166 @@
+#include "kestrel/vision/target_search.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "kestrel/vision/self_likeness.hpp"
+
+namespace kestrel {
+namespace {
+
+/// The pyramid reaches this far beyond the outline, as a share of its size and at least so many px:
+/// room for the alignment to move.
+constexpr double kMarginShare = 0.15;
+constexpr double kMarginPx = 16;
+
+/// Places less than this apart, as a share of the outline's size, are one place.
+constexpr double kSamePlaceShare = 0.05;
+
+/// A rival that shows this share of what the best place shows is as good as that.
+constexpr double kRivalShare = 0.8;
+
+/// Standard deviations within which a place is the expected one.
+constexpr double kGate = 3;
+
+AlignOptions align_options(const Template& model, const TrackOptions& options) {
+  AlignOptions align = options.align;
+  align.simd = options.simd;
+  align.agreement =
+      beyond_self_likeness(align.agreement, self_likeness(model.picture(), model.blocks(), align));
+  return align;
+}
+
+PixelBox box_of(const Homography& H, const Template& model) {
+  const auto c = outline(H, model.width(), model.height());
+  const auto [left, right] = std::minmax({c[0].u, c[1].u, c[2].u, c[3].u});
+  const auto [top, bottom] = std::minmax({c[0].v, c[1].v, c[2].v, c[3].v});
+  return {left, top, right - left, bottom - top};
+}
+
+PixelBox with_margin(const PixelBox& box) {
+  const double by = kMarginPx + kMarginShare * std::max(box.width, box.height);
+  return {box.u - by, box.v - by, box.width + 2 * by, box.height + 2 * by};
+}
+
+PixelBox united(const PixelBox& a, const PixelBox& b) {
+  const double left = std::min(a.u, b.u);
+  const double top = std::min(a.v, b.v);
+  return {left, top, std::max(a.u + a.width, b.u + b.width) - left,
+          std::max(a.v + a.height, b.v + b.height) - top};
+}
+
+/// Mean distance of the corners at two places, px.
+double apart(const Homography& a, const Homography& b, const Template& model) {
+  const auto at = outline(a, model.width(), model.height());
+  const auto to = outline(b, model.width(), model.height());
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += distance(at[i], to[i]);
+  return sum / 4;
+}
+
+bool is_better(const Alignment& a, const Alignment& b) {
+  return a.is_accepted != b.is_accepted ? a.is_accepted : a.agreement.shown() > b.agreement.shown();
+}
+
+}  // namespace
+
+TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
+    : model_(model),
+      options_(options),
+      aligner_(model.blocks(), align_options(model, options)),
+      detector_(options) {}
+
+void TargetSearch::look(const Frame& frame, const PixelBox& window) {
+  pyramid_.look(frame.gray, window, aligner_.levels(), options_.simd);
+}
+
+bool TargetSearch::is_possible(const Alignment& place) const {
+  return place.is_accepted &&
+         is_plausible(place.image_from_template, model_.width(), model_.height(), options_.outline);
+}
+
+bool TargetSearch::is_weak(const Alignment& place) const {
+  return place.agreement.alike_share() < options_.weak_share;
+}
+
+Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const Homography& ahead) {
+  Sighting result;
+  result.stage = TrackStage::Aligned;
+  result.window = clipped(with_margin(united(box_of(last, model_), box_of(ahead, model_))),
+                          frame.gray.cols, frame.gray.rows);
+  look(frame, result.window);
+  const bool moves = aligner_.likeness(pyramid_, ahead) >= aligner_.likeness(pyramid_, last);
+  const Homography& start = moves ? ahead : last;
+  result.at = aligner_.align(pyramid_, start);
+  if (!result.at || !is_possible(*result.at) || is_weak(*result.at)) {
+    result.window = {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
+    look(frame, result.window);
+    const auto searched = aligner_.align(pyramid_, aligner_.search(pyramid_, start));
+    if (searched && (!result.at || is_better(*searched, *result.at))) {
+      result.at = searched;
+      result.stage = TrackStage::Searched;
+    }
+  }
+  if (result.at && is_possible(*result.at)) result.miss = Miss::None;
+  return result;
+}
+
+Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
+                              const std::optional<Expectation>& expected) {
+  Sighting result;
+  result.stage = TrackStage::Detected;
+  result.window = clipped(window, frame.gray.cols, frame.gray.rows);
+  const Detection seen = detector_.detect(model_, frame.gray, result.window);
+  result.keypoints = seen.keypoints;
+  result.matches = int(seen.pairs.size());
+  result.miss = seen.keypoints < 4                                 ? Miss::FewKeypoints
+                : result.matches < options_.detect.fit.min_inliers ? Miss::FewMatches
+                                                                   : Miss::NoConsensus;
+  if (seen.hypotheses.empty()) return result;
+  std::vector<Alignment> places;
+  for (const FittedHomography& h : seen.hypotheses) {
+    look(frame, with_margin(box_of(h.image_from_template, model_)));
+    if (const auto place = aligner_.align(pyramid_, h.image_from_template)) {
+      places.push_back(*place);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), is_better);
+  choose(places, expected, result);
+  if (!result.is_accepted()) return result;
+  for (const int i : seen.hypotheses.front().inliers) {
+    const AffinePair& pair = seen.pairs[std::size_t(i)];
+    result.inliers.push_back({pair.in_template, pair.in_image});
+  }
+  return result;
+}
+
+void TargetSearch::choose(const std::vector<Alignment>& places,
+                          const std::optional<Expectation>& expected, Sighting& sighting) const {
+  sighting.miss = Miss::NotAlike;
+  if (places.empty()) return;
+  sighting.at = places.front();
+  if (!is_possible(places.front())) return;
+  sighting.miss = Miss::None;
+  const Homography& best = places.front().image_from_template;
+  const PixelBox box = box_of(best, model_);
+  const double near = kSamePlaceShare * std::max(box.width, box.height);
+  for (const Alignment& rival : places) {
+    const bool is_rival =
+        is_possible(rival) &&
+        rival.agreement.shown() > kRivalShare * places.front().agreement.shown() &&
+        apart(rival.image_from_template, best, model_) > near;
+    if (!is_rival) continue;
+    if (!expected) {
+      sighting.miss = Miss::Ambiguous;
+      return;
+    }
+    const Homography& there = expected->image_from_template;
+    const double chosen = apart(sighting.at->image_from_template, there, model_);
+    if (apart(rival.image_from_template, there, model_) < chosen) sighting.at = rival;
+  }
+  if (!expected || sighting.at->image_from_template.H == best.H) return;
+  const double off = apart(sighting.at->image_from_template, expected->image_from_template, model_);
+  if (off > kGate * expected->deviation_px) sighting.miss = Miss::Ambiguous;
+}
+
+}  // namespace kestrel
