@@ -17,7 +17,7 @@ namespace {
 constexpr double kCameraBlurPx = 0.5;
 
 /// Smallest side of an octave that can hold an extremum.
-constexpr int kMinSidePx = 2 * sift::Octave::kBorderPx + 1;
+constexpr int kMinSidePx = 2 * sift::kBorderPx + 1;
 
 void require(bool holds, const char* message) {
   if (!holds) throw std::invalid_argument(message);
@@ -31,9 +31,8 @@ double sigma_at(const FastSiftOptions& options, double layer) {
 sift::Ladder ladder_of(const FastSiftOptions& options) {
   sift::Ladder ladder;
   ladder.layers = options.octave_layers;
-  // Half of what is asked of the refined extremum (as cv::SIFT): a sample misses the summit.
-  ladder.threshold = int(0.5 * options.contrast_threshold * 255 / options.octave_layers *
-                         double(kernels::kDogScale));
+  ladder.wanted = {options.contrast_threshold * 255 / options.octave_layers,
+                   options.edge_threshold};
   const double before = options.is_doubled ? 2 * kCameraBlurPx : kCameraBlurPx;
   ladder.blurs.push_back(sift::gaussian_taps(before, options.sigma));
   for (int i = 1; i < options.octave_layers + 3; ++i)
@@ -67,7 +66,7 @@ struct FastSift::Work {
   explicit Work(const FastSiftOptions& wanted) : options(wanted), ladder(ladder_of(wanted)) {}
 
   void build(const sift::Picture& picture);
-  void refine();
+  void place();
   void orient();
   void describe(const cv::Point& origin);
 
@@ -95,23 +94,15 @@ void FastSift::Work::build(const sift::Picture& picture) {
   }
 }
 
-void FastSift::Work::refine() {
-  const sift::Refinement wanted{options.octave_layers,
-                                options.contrast_threshold * 255 / options.octave_layers,
-                                options.edge_threshold};
+void FastSift::Work::place() {
   places.clear();
   for (int o = 0; o < octaves_used; ++o) {
-    const sift::Octave& octave = octaves[std::size_t(o)];
-    for (const sift::Candidate& candidate : octave.candidates()) {
-      const auto extremum = sift::refined(octave, candidate, wanted);
-      if (!extremum) continue;
-      const sift::Candidate& at = extremum->at;
-      const double sigma = sigma_at(options, at.layer + double(extremum->dlayer));
-      places.push_back(
-          {o,
-           {at.layer, float(at.u) + extremum->du, float(at.v) + extremum->dv, float(sigma)},
-           0,
-           extremum->contrast});
+    for (const sift::Extremum& e : octaves[std::size_t(o)].extrema()) {
+      const double sigma = sigma_at(options, e.at.layer + double(e.dlayer));
+      places.push_back({o,
+                        {e.at.layer, float(e.at.u) + e.du, float(e.at.v) + e.dv, float(sigma)},
+                        0,
+                        e.contrast});
     }
   }
   strongest.keep(places, options.max_keypoints);
@@ -156,7 +147,7 @@ const SiftPoints& FastSift::detect(const cv::Mat& gray, const PixelBox& window) 
   const PixelBox box = clipped(window, gray.cols, gray.rows);
   const cv::Rect crop(int(box.u), int(box.v), int(box.width), int(box.height));
   work_->build({crop.empty() ? cv::Mat() : gray(crop), work_->options.is_doubled});
-  work_->refine();
+  work_->place();
   work_->orient();
   work_->describe(crop.tl());
   return work_->points;

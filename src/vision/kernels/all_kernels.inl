@@ -9,7 +9,6 @@
 
 namespace kestrel::kernels::KESTREL_KERNELS {
 
-constexpr Table kTable{widen,        blur_row, difference_rows, find_extrema,
-                       orientations, describe, compare,         nearest};
+constexpr Table kTable{widen, halve, blur, find_extrema, orientations, describe, compare, nearest};
 
 }  // namespace kestrel::kernels::KESTREL_KERNELS

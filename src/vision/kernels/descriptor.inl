@@ -15,14 +15,11 @@ inline void add(Cell& sum, const Cell& cell, float weight) {
   for (int p = 0; p < kBins / kLanes; ++p) sum.part[p] += cell.part[p] * weight;
 }
 
-/// Four neighbouring pairs of pixels: a[k] = from[index[k]], b[k] = from[index[k] + 1].
-inline void gather_pairs(const float* from, const std::int32_t* index, float* a, float* b) {
-  const auto pair = [from](std::int32_t i) { return reinterpret_cast<const __m64*>(from + i); };
-  const __m128 zero = _mm_setzero_ps();
-  const __m128 first = _mm_loadh_pi(_mm_loadl_pi(zero, pair(index[0])), pair(index[1]));
-  const __m128 second = _mm_loadh_pi(_mm_loadl_pi(zero, pair(index[2])), pair(index[3]));
-  _mm_store_ps(a, _mm_shuffle_ps(first, second, 0x88));
-  _mm_store_ps(b, _mm_shuffle_ps(first, second, 0xdd));
+/// Between the two numbers of each pair.
+inline Floats between(Ints pairs, Floats share) {
+  const Ints first = (pairs << 16) >> 16;
+  return __builtin_convertvector(first, Floats) +
+         share * __builtin_convertvector((pairs >> 16) - first, Floats);
 }
 
 /// The grid of samples, bilinear; outside the image its border goes on.
@@ -41,15 +38,9 @@ void resample(const DescriptorPatch& patch, float* samples) {
     const Ints row = smaller(__builtin_convertvector(v, Ints), all(patch.height - 2));
     const Floats right = u - __builtin_convertvector(column, Floats);
     const Floats below = v - __builtin_convertvector(row, Floats);
-    alignas(32) std::int32_t index[kLanes];
-    alignas(32) float corner[4][kLanes];
-    store(index, row * patch.stride + column);
-    for (int q = 0; q < kLanes; q += 4) {
-      gather_pairs(patch.image, index + q, corner[0] + q, corner[1] + q);
-      gather_pairs(patch.image + patch.stride, index + q, corner[2] + q, corner[3] + q);
-    }
-    const Floats top = floats(corner[0]) + right * (floats(corner[1]) - floats(corner[0]));
-    const Floats bottom = floats(corner[2]) + right * (floats(corner[3]) - floats(corner[2]));
+    const Ints index = row * patch.stride + column;
+    const Floats top = between(pairs_at(patch.image, index), right);
+    const Floats bottom = between(pairs_at(patch.image + patch.stride, index), right);
     store(samples + k, top + below * (bottom - top));
   }
 }

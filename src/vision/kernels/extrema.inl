@@ -1,41 +1,29 @@
-// Differences of Gaussians and their extrema, in 16 bits.
+// Extrema of the differences of Gaussians, in 16 bits.
 namespace kestrel::kernels::KESTREL_KERNELS {
 namespace {
 
-void difference_rows(const float* const* levels, std::int16_t* const* dogs, int dogs_count,
-                     int width) {
-  for (int x = 0; x < width; x += kShortLanes) {
-    Floats low = floats(levels[0] + x);
-    Floats high = floats(levels[0] + x + kLanes);
-    for (int i = 0; i < dogs_count; ++i) {
-      const Floats next_low = floats(levels[i + 1] + x);
-      const Floats next_high = floats(levels[i + 1] + x + kLanes);
-      store(dogs[i] + x, packed(rounded((next_low - low) * kDogScale),
-                                rounded((next_high - high) * kDogScale)));
-      low = next_low;
-      high = next_high;
-    }
-  }
-}
-
-/// Largest and smallest of three rows of each difference, then of three neighbouring differences:
-/// scratch row 2i is the largest of differences i..i+2 in a column, 2i + 1 the smallest.
-template <int Count>
+/// Scratch rows 3i and 3i + 1: the largest and the smallest of differences i..i+2 in a column of
+/// three rows; 3i + 2: difference i + 1 itself.
+template <int Layers>
 void column_extremes(const ExtremaRow& row, int begin, int end) {
+  constexpr int kDogs = Layers + 2;
   for (int x = begin; x < end; x += kShortLanes) {
-    Shorts high[Count];
-    Shorts low[Count];
-    for (int i = 0; i < Count; ++i) {
-      const Shorts above = shorts(row.dogs[3 * i] + x);
-      const Shorts at = shorts(row.dogs[3 * i + 1] + x);
-      const Shorts below = shorts(row.dogs[3 * i + 2] + x);
-      high[i] = larger(larger(above, below), at);
-      low[i] = smaller(smaller(above, below), at);
+    Shorts at[kDogs];
+    Shorts high[kDogs];
+    Shorts low[kDogs];
+    for (int i = 0; i < kDogs; ++i) {
+      const std::int16_t* const* const from = row.levels + 3 * i;
+      const Shorts above = shorts(from[3] + x) - shorts(from[0] + x);
+      const Shorts below = shorts(from[5] + x) - shorts(from[2] + x);
+      at[i] = shorts(from[4] + x) - shorts(from[1] + x);
+      high[i] = larger(larger(above, below), at[i]);
+      low[i] = smaller(smaller(above, below), at[i]);
     }
-    for (int i = 0; i + 2 < Count; ++i) {
-      store(row.scratch + 2 * i * row.stride + x, larger(larger(high[i], high[i + 2]), high[i + 1]));
-      store(row.scratch + (2 * i + 1) * row.stride + x,
-            smaller(smaller(low[i], low[i + 2]), low[i + 1]));
+    std::int16_t* out = row.scratch + x;
+    for (int i = 0; i < Layers; ++i, out += 3 * row.stride) {
+      store(out, larger(larger(high[i], high[i + 2]), high[i + 1]));
+      store(out + row.stride, smaller(smaller(low[i], low[i + 2]), low[i + 1]));
+      store(out + 2 * row.stride, at[i + 1]);
     }
   }
 }
@@ -55,16 +43,17 @@ int find_extrema(const ExtremaRow& row) {
   const int before = begin == 0 ? 0 : begin - kShortLanes;
   const int after = row.end + kShortLanes;
   using Extremes = void (*)(const ExtremaRow&, int, int);
-  static constexpr Extremes kExtremes[] = {column_extremes<3>, column_extremes<4>,
-                                           column_extremes<5>, column_extremes<6>,
-                                           column_extremes<7>, column_extremes<8>};
-  kExtremes[row.count - 3](row, before, after);
+  static constexpr Extremes kExtremes[] = {column_extremes<1>, column_extremes<2>,
+                                           column_extremes<3>, column_extremes<4>,
+                                           column_extremes<5>};
+  const int layers = row.count - 3;
+  kExtremes[layers - 1](row, before, after);
   const Shorts threshold = all(std::int16_t(row.threshold));
   int found = 0;
-  for (int i = 0; i + 2 < row.count; ++i) {
-    const std::int16_t* const high = row.scratch + 2 * i * row.stride;
+  for (int i = 0; i < layers; ++i) {
+    const std::int16_t* const high = row.scratch + 3 * i * row.stride;
     const std::int16_t* const low = high + row.stride;
-    const std::int16_t* const at = row.dogs[3 * (i + 1) + 1];
+    const std::int16_t* const at = low + row.stride;
     for (int x = begin; x < row.end; x += kShortLanes) {
       unsigned mask = extreme_lanes(shorts(at + x), high + x, low + x, threshold);
       for (; mask != 0; mask &= mask - 1, mask &= mask - 1) {

@@ -10,13 +10,14 @@
 /// to the next multiple of kRowBlock.
 namespace kestrel::kernels {
 
-constexpr int kRowBlock = 16;      // px
-constexpr int kMaxRadius = 10;     // taps on each side of a blur's centre
-constexpr int kMaxStep = 3;        // px between taps along a row
-constexpr int kRowMargin = 32;     // px a blur may read beyond either end of a row
-constexpr int kMaxDogs = 8;        // differences of Gaussians of an octave
-constexpr float kDogScale = 64;    // of differences of Gaussians in 16 bits, 1/grey level
-constexpr int kOrientations = 36;  // bins of the histogram of orientations
+constexpr int kRowBlock = 16;   // px
+constexpr int kMaxRadius = 10;  // taps on each side of a blur's centre
+constexpr int kMaxStep = 3;     // px between taps along a row
+constexpr int kRowMargin = 32;  // px a blur may read beyond either end of a row
+constexpr int kMaxLevels = 8;   // of an octave
+constexpr int kBandRows = 8;
+constexpr float kFixedScale = 128;  // of grey levels in 16 bits
+constexpr int kOrientations = 36;   // bins of the histogram of orientations
 constexpr int kGridSide = 18;   // samples of a descriptor's grid, with one around for differences
 constexpr int kGridSize = 328;  // kGridSide^2, to a multiple of 8
 constexpr int kMaxOrientationRadius = 15;  // samples
@@ -24,33 +25,36 @@ constexpr int kIndexBits = 13;             // of a keypoint in the key of a matc
 constexpr int kQueries = 4;                // descriptors compared at once
 constexpr int kModelBlock = 8;             // descriptors interleaved
 
-/// One row of a separable blur: first down the columns of 2 radius + 1 rows, then along the row
-/// with taps that stand step px apart; mirrored at the row's ends (without repeating them).
-struct BlurRow {
-  const float* const* rows;  // 2 radius + 1
+/// Some rows of a separable blur: first down the columns with taps `step` rows apart, then along
+/// the rows; mirrored at the rows' ends (without repeating them).
+struct BlurBand {
+  const float* const* rows;  // those of the output and radius * step on each side
   const float* taps;         // centre and one side: radius + 1
   int radius;
   int step;
-  float* scratch;  // kRowMargin + width + kRowMargin, rounded up
-  float* out;
+  float* scratch;  // kBandRows rows of stride
+  int stride;      // 2 kRowMargin more than the width, rounded up
+  int count;       // rows: 1 to kBandRows
   int width;
+  float* const* out;           // or null: not kept
+  std::int16_t* const* fixed;  // the same in units of 1/kFixedScale, rounded to nearest
 };
 
 /// Search of one row for extrema of the differences of Gaussians among their 26 neighbours.
 struct ExtremaRow {
-  const std::int16_t* const* dogs;  // dogs x 3 rows: above, at, below; in units of 1/kDogScale
-  int count;                        // dogs: layers + 2
-  int begin;                        // columns searched: [begin, end)
+  const std::int16_t* const* levels;  // of each: the row above, the row, the row below
+  int count;                          // levels: layers + 3
+  int begin;                          // columns searched: [begin, end)
   int end;
-  int threshold;          // in units of 1/kDogScale, exceeded by |extrema|
-  std::int16_t* scratch;  // (4 count) rows of `stride`
+  int threshold;          // in units of 1/kFixedScale, exceeded by |extrema|
+  std::int16_t* scratch;  // 3 layers rows of stride
   int stride;
   std::int32_t* found;  // layer << 16 | column; as many as there are columns times layers
 };
 
 /// Gradients about a pixel: (2 radius + 1)^2 samples `step` px apart within the disc.
 struct OrientationPatch {
-  const float* centre;
+  const std::int16_t* centre;
   int stride;
   int radius;  // samples
   int step;    // px: 1 or 2
@@ -72,7 +76,7 @@ struct DescriptorGrid {
 /// A descriptor's samples in an image.
 struct DescriptorPatch {
   const DescriptorGrid* grid;
-  const float* image;
+  const std::int16_t* image;
   int stride;
   int width;
   int height;
@@ -100,10 +104,9 @@ struct DistanceBlock {
 struct Table {
   /// 8-bit pixels to floats.
   void (*widen)(const std::uint8_t* in, float* out, int count);
-  void (*blur_row)(const BlurRow& row);
-  /// dogs[i] = (levels[i + 1] - levels[i]) * kDogScale, rounded to nearest.
-  void (*difference_rows)(const float* const* levels, std::int16_t* const* dogs, int dogs_count,
-                          int width);
+  /// Every second of 2 count - 1 numbers in units of 1/kFixedScale, as they are and as floats.
+  void (*halve)(const std::int16_t* in, float* out, std::int16_t* fixed, int count);
+  void (*blur)(const BlurBand& band);
   /// How many were found, in the order of layers and columns.
   int (*find_extrema)(const ExtremaRow& row);
   void (*orientations)(const OrientationPatch& patch);

@@ -68,11 +68,13 @@ inline Shorts packed(Ints a, Ints b) {
 }
 /// Two bits for each lane.
 inline unsigned mask_of(Shorts v) { return unsigned(_mm256_movemask_epi8(__m256i(v))); }
-/// from[0], from[2], from[4], ...
-inline Floats every_second(const float* from) {
-  const __m256 halves =
-      _mm256_shuffle_ps(__m256(floats(from)), __m256(floats(from + kLanes)), 0x88);
-  return Floats(_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(halves), 0xd8)));
+/// The numbers at `from`, each in 32 bits.
+inline Ints widened(const std::int16_t* from) {
+  return Ints(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+}
+/// Of each index the pair of numbers that starts there, the first in the low half.
+inline Ints pairs_at(const std::int16_t* from, Ints index) {
+  return Ints(_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), __m256i(index), 2));
 }
 #else
 inline Floats root(Floats v) { return Floats(_mm_sqrt_ps(__m128(v))); }
@@ -83,8 +85,18 @@ inline Shorts larger(Shorts a, Shorts b) { return Shorts(_mm_max_epi16(__m128i(a
 inline Shorts smaller(Shorts a, Shorts b) { return Shorts(_mm_min_epi16(__m128i(a), __m128i(b))); }
 inline Shorts packed(Ints a, Ints b) { return Shorts(_mm_packs_epi32(__m128i(a), __m128i(b))); }
 inline unsigned mask_of(Shorts v) { return unsigned(_mm_movemask_epi8(__m128i(v))); }
-inline Floats every_second(const float* from) {
-  return Floats(_mm_shuffle_ps(__m128(floats(from)), __m128(floats(from + kLanes)), 0x88));
+inline Ints widened(const std::int16_t* from) {
+  const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  return Ints(_mm_srai_epi32(_mm_unpacklo_epi16(low, low), 16));
+}
+inline Ints pairs_at(const std::int16_t* from, Ints index) {
+  Ints pairs{};
+  for (int i = 0; i < kLanes; ++i) {
+    std::int32_t pair;
+    __builtin_memcpy(&pair, from + index[i], 4);
+    pairs[i] = pair;
+  }
+  return pairs;
 }
 #endif
 

@@ -2,9 +2,11 @@
 namespace kestrel::kernels::KESTREL_KERNELS {
 namespace {
 
-/// Samples `step` px apart.
-inline Floats samples(const float* from, int step) {
-  return step == 1 ? floats(from) : every_second(from);
+/// Differences a - b of neighbouring pixels, or of every second.
+inline Floats differences(const std::int16_t* a, const std::int16_t* b, int step) {
+  if (step == 1) return __builtin_convertvector(widened(a) - widened(b), Floats);
+  const Ints pairs = Ints(shorts(a) - shorts(b));
+  return __builtin_convertvector((pairs << 16) >> 16, Floats);
 }
 
 struct OrientedRow {
@@ -13,14 +15,14 @@ struct OrientedRow {
 };
 
 /// Bins and weights of the samples left..left+count of a row.
-inline void orient_row(const OrientationPatch& patch, const float* row, float weight, int left,
+inline void orient_row(const OrientationPatch& patch, const std::int16_t* row, float weight, int left,
                        int count, OrientedRow& out) {
   constexpr float kBinsPerRad = kOrientations / 6.283185307F;
   const int step = patch.step;
   for (int k = 0; k < count; k += kLanes) {
-    const float* const at = row + (left + k) * step;
-    const Floats across = samples(at + 1, step) - samples(at - 1, step);
-    const Floats down = samples(at + patch.stride, step) - samples(at - patch.stride, step);
+    const std::int16_t* const at = row + (left + k) * step;
+    const Floats across = differences(at + 1, at - 1, step);
+    const Floats down = differences(at + patch.stride, at - patch.stride, step);
     const Floats strength = root(across * across + down * down);
     const Ints bin = rounded(angle_of(down, across) * kBinsPerRad);
     store(out.bin + k, bin + ((bin < 0) & kOrientations));

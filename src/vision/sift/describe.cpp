@@ -43,11 +43,11 @@ Histogram histogram(const Octave& octave, const Spot& spot, const kernels::Table
   const Window weights = window(sigma, radius);
   const int u = int(std::floor(spot.u + 0.5F));
   const int v = int(std::floor(spot.v + 0.5F));
-  const Plane& plane = octave.level(spot.layer);
+  const Plane<std::int16_t>& plane = octave.level(spot.layer);
   Histogram result;
   kernels::OrientationPatch patch{};
   patch.centre = plane.row(v) + u;
-  patch.stride = plane.stride;
+  patch.stride = plane.stride();
   patch.radius = radius;
   patch.step = step;
   patch.left = (u - 1) / step;
@@ -110,12 +110,12 @@ Descriptor described(const Octave& octave, const Spot& spot, float angle_rad,
                      const kernels::DescriptorGrid& grid, const kernels::Table& kernels) {
   constexpr double kSigmasPerSample = 3 * 5. / 16;
   const Direction along = direction(double(angle_rad));
-  const Plane& plane = octave.level(spot.layer);
+  const Plane<std::int16_t>& plane = octave.level(spot.layer);
   Descriptor result;
   kernels::DescriptorPatch patch{};
   patch.grid = &grid;
   patch.image = plane.row(0);
-  patch.stride = plane.stride;
+  patch.stride = plane.stride();
   patch.width = octave.width();
   patch.height = octave.height();
   patch.u = spot.u;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -8,24 +7,10 @@
 
 #include "../kernels/kernels.hpp"
 #include "gaussian_taps.hpp"
+#include "plane.hpp"
+#include "refine.hpp"
 
 namespace kestrel::sift {
-
-/// Rows of floats; the last rows only when there are fewer than the image has.
-struct Plane {
-  float* first = nullptr;
-  int stride = 0;
-  int mask = ~0;  // of the row's number
-
-  float* row(int y) const { return first + std::ptrdiff_t(y & mask) * stride; }
-};
-
-/// A pixel of a difference of Gaussians that is extreme among its neighbours.
-struct Candidate {
-  int layer = 0;
-  int u = 0;  // px of the octave
-  int v = 0;
-};
 
 /// What the first octave is made of: 8-bit pixels, as they are or enlarged twice.
 struct Picture {
@@ -39,13 +24,14 @@ struct Picture {
 /// How an octave's levels follow from each other.
 struct Ladder {
   int layers = 3;
-  int threshold = 0;                // of candidates, 1/kDogScale grey levels
+  Refinement wanted;
   std::vector<GaussianTaps> blurs;  // layers + 3: to each level from the one before
   const kernels::Table* kernels = nullptr;
 };
 
 /// One octave of the scale space: layers + 3 levels of blur and the extrema of their differences.
-/// All levels advance together, a row at a time, while the rows they need are in the cache.
+/// All advance together, a few rows at a time, while the rows they need are in the cache; only the
+/// levels that keypoints are described from are kept whole.
 class Octave {
  public:
   /// From pixels: level 0 is their blur.
@@ -55,36 +41,39 @@ class Octave {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const Plane& level(int i) const { return levels_[std::size_t(i)]; }
-  const std::vector<Candidate>& candidates() const { return candidates_; }
-
-  /// Extrema are looked for this far from the border: refining may move them.
-  static constexpr int kBorderPx = 5;
+  /// Levels 1 to layers, in units of 1/kFixedScale grey levels.
+  const Plane<std::int16_t>& level(int i) const { return fixed_[std::size_t(i)]; }
+  const std::vector<Extremum>& extrema() const { return extrema_; }
 
  private:
   void shape(int width, int height, const Ladder& ladder);
-  void advance(const Ladder& ladder, int first_level);
-  void blur_row(const Ladder& ladder, int level, int v);
+  void shape_planes(const Ladder& ladder);
+  void advance(const Ladder& ladder);
+  void blur(const Ladder& ladder, int level);
+  void search_rows(const Ladder& ladder);
   void search_row(const Ladder& ladder, int v);
-  bool can_advance(const GaussianTaps& blur, int level) const;
+  void refine(const Ladder& ladder, int rows_done);
+  int ready(const Ladder& ladder, int level) const;
+  int& done(int level) { return done_[std::size_t(level + 1)]; }
   int done(int level) const { return done_[std::size_t(level + 1)]; }
-  const Plane& above(int level) const {
+  const Plane<float>& before(int level) const {
     return level == 0 ? source_ : levels_[std::size_t(level - 1)];
   }
 
   int width_ = 0;
   int height_ = 0;
   int stride_ = 0;
-  std::vector<float> floats_;       // storage of the planes
-  std::vector<std::int16_t> dogs_;  // kDogRows rows of each difference
-  std::vector<std::int16_t> extremes_;
+  Plane<float> source_;
+  std::vector<Plane<float>> levels_;
+  std::vector<Plane<std::int16_t>> fixed_;  // the same rounded to 16 bits
   std::vector<float> scratch_;
+  std::vector<std::int16_t> extremes_;
   std::vector<std::int32_t> found_;
-  Plane source_;
-  std::vector<Plane> levels_;
   std::vector<int> done_;  // rows, of the source and each level
-  int differed_ = 0;       // rows
+  int searched_ = 0;       // rows
   std::vector<Candidate> candidates_;
+  std::size_t refined_ = 0;  // candidates
+  std::vector<Extremum> extrema_;
 };
 
 }  // namespace kestrel::sift

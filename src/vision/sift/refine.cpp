@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "../kernels/kernels.hpp"
+
 namespace kestrel::sift {
 namespace {
 
@@ -19,20 +21,21 @@ struct Quadric {
 /// 3x3 px of one difference.
 using Square = std::array<std::array<float, 3>, 3>;
 
-Square difference(const Octave& octave, const Candidate& c, int layer) {
+Square difference(const Levels& levels, const Candidate& c, int layer) {
   Square d;
   for (int j = 0; j < 3; ++j) {
-    const float* const low = octave.level(layer).row(c.v + j - 1) + c.u - 1;
-    const float* const high = octave.level(layer + 1).row(c.v + j - 1) + c.u - 1;
-    for (int i = 0; i < 3; ++i) d[std::size_t(j)][std::size_t(i)] = high[i] - low[i];
+    const std::int16_t* const low = levels.planes[layer].row(c.v + j - 1) + c.u - 1;
+    const std::int16_t* const high = levels.planes[layer + 1].row(c.v + j - 1) + c.u - 1;
+    for (int i = 0; i < 3; ++i)
+      d[std::size_t(j)][std::size_t(i)] = float(high[i] - low[i]) * (1 / kernels::kFixedScale);
   }
   return d;
 }
 
-Quadric quadric(const Octave& octave, const Candidate& c) {
-  const Square below = difference(octave, c, c.layer - 1);
-  const Square at = difference(octave, c, c.layer);
-  const Square above = difference(octave, c, c.layer + 1);
+Quadric quadric(const Levels& levels, const Candidate& c) {
+  const Square below = difference(levels, c, c.layer - 1);
+  const Square at = difference(levels, c, c.layer);
+  const Square above = difference(levels, c, c.layer + 1);
   const float twice = 2 * at[1][1];
   Quadric q;
   q.value = at[1][1];
@@ -70,10 +73,9 @@ std::optional<Offset> summit(const Quadric& q) {
   return x;
 }
 
-bool is_inside(const Octave& octave, const Candidate& c, int layers) {
-  constexpr int kBorder = Octave::kBorderPx;
-  return c.layer >= 1 && c.layer <= layers && c.u >= kBorder && c.v >= kBorder &&
-         c.u < octave.width() - kBorder && c.v < octave.height() - kBorder;
+bool is_inside(const Levels& levels, const Candidate& c) {
+  return c.layer >= 1 && c.layer <= levels.layers && c.u >= kBorderPx && c.v >= kBorderPx &&
+         c.u < levels.width - kBorderPx && c.v < levels.height - kBorderPx;
 }
 
 bool is_edge(const Quadric& q, double ratio) {
@@ -86,11 +88,11 @@ int nearest(float x) { return int(std::floor(x + 0.5F)); }
 
 }  // namespace
 
-std::optional<Extremum> refined(const Octave& octave, const Candidate& candidate,
+std::optional<Extremum> refined(const Levels& levels, const Candidate& candidate,
                                 const Refinement& wanted) {
   Candidate c = candidate;
   for (int move = 0; move < kMaxMoves; ++move) {
-    const Quadric q = quadric(octave, c);
+    const Quadric q = quadric(levels, c);
     const std::optional<Offset> x = summit(q);
     if (!x) return std::nullopt;
     if (std::abs(x->u) < 0.5F && std::abs(x->v) < 0.5F && std::abs(x->s) < 0.5F) {
@@ -101,7 +103,9 @@ std::optional<Extremum> refined(const Octave& octave, const Candidate& candidate
     c.u += nearest(x->u);
     c.v += nearest(x->v);
     c.layer += nearest(x->s);
-    if (!is_inside(octave, c, wanted.layers)) return std::nullopt;
+    const bool is_near = std::abs(c.u - candidate.u) <= kRefineMovePx &&
+                         std::abs(c.v - candidate.v) <= kRefineMovePx;
+    if (!is_near || !is_inside(levels, c)) return std::nullopt;
   }
   return std::nullopt;
 }
