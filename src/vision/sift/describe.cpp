@@ -1,0 +1,130 @@
+#include "describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact_math.hpp"
+
+namespace kestrel::sift {
+namespace {
+
+using kernels::kOrientations;
+using Histogram = std::array<float, kOrientations>;
+
+/// The image is blurred by sigma: samples up to 0.8 sigma apart miss nothing of its gradients.
+constexpr float kTwoPixelSigma = 2.5F;
+
+/// Gaussian over the samples along a side of the neighbourhood.
+struct Window {
+  alignas(32) std::array<float, 2 * kernels::kMaxOrientationRadius + 1 + 16> weight{};
+};
+
+Window window(float sigma_in_samples, int radius) {
+  constexpr int kCentre = kernels::kMaxOrientationRadius;
+  // exp(-(d+1)^2/2s^2) = exp(-d^2/2s^2) q^(2d+1), q = exp(-1/2s^2)
+  const float q = float(exponential(-0.5 / (double(sigma_in_samples) * sigma_in_samples)));
+  float ratio = q;
+  float weight = 1;
+  Window result;
+  for (int d = 0; d <= radius; ++d) {
+    result.weight[std::size_t(kCentre - d)] = weight;
+    result.weight[std::size_t(kCentre + d)] = weight;
+    weight *= ratio;
+    ratio *= q * q;
+  }
+  return result;
+}
+
+Histogram histogram(const Octave& octave, const Spot& spot, const kernels::Table& kernels) {
+  const int step = spot.sigma < kTwoPixelSigma ? 1 : 2;
+  const float sigma = 1.5F * spot.sigma / float(step);
+  const int radius =
+      std::clamp(int(std::floor(3 * sigma + 0.5F)), 1, kernels::kMaxOrientationRadius);
+  const Window weights = window(sigma, radius);
+  const int u = int(std::floor(spot.u + 0.5F));
+  const int v = int(std::floor(spot.v + 0.5F));
+  const Plane<std::int16_t>& plane = octave.level(spot.layer);
+  Histogram result;
+  kernels::OrientationPatch patch{};
+  patch.centre = plane.row(v) + u;
+  patch.stride = plane.stride();
+  patch.radius = radius;
+  patch.step = step;
+  patch.left = (u - 1) / step;
+  patch.right = (octave.width() - 2 - u) / step;
+  patch.above = (v - 1) / step;
+  patch.below = (octave.height() - 2 - v) / step;
+  patch.weight = weights.weight.data();
+  patch.histogram = result.data();
+  kernels.orientations(patch);
+  return result;
+}
+
+/// With the binomial filter 1 4 6 4 1.
+Histogram smoothed(const Histogram& h) {
+  const auto at = [&h](int b) { return h[std::size_t((b + kOrientations) % kOrientations)]; };
+  Histogram result;
+  for (int b = 0; b < kOrientations; ++b) {
+    result[std::size_t(b)] = (at(b - 2) + at(b + 2)) * (1.F / 16) +
+                             (at(b - 1) + at(b + 1)) * (4.F / 16) + at(b) * (6.F / 16);
+  }
+  return result;
+}
+
+}  // namespace
+
+Peaks orientations(const Octave& octave, const Spot& spot, const kernels::Table& kernels) {
+  constexpr float kRadPerBin = 6.283185307F / kOrientations;
+  const Histogram h = smoothed(histogram(octave, spot, kernels));
+  const float enough = 0.8F * *std::max_element(h.begin(), h.end());
+  Peaks peaks;
+  for (int b = 0; b < kOrientations; ++b) {
+    const float before = h[std::size_t((b + kOrientations - 1) % kOrientations)];
+    const float at = h[std::size_t(b)];
+    const float after = h[std::size_t((b + 1) % kOrientations)];
+    if (!(at > before && at > after && at >= enough)) continue;
+    float bin = float(b) + 0.5F * (before - after) / (before - 2 * at + after);
+    if (bin < 0) bin += kOrientations;
+    if (bin >= kOrientations) bin -= kOrientations;
+    peaks.angle[std::size_t(peaks.count++)] = bin * kRadPerBin;
+  }
+  return peaks;
+}
+
+kernels::DescriptorGrid descriptor_grid() {
+  constexpr double kCellsPerSample = 5. / 16;
+  kernels::DescriptorGrid grid{};
+  for (int k = 0; k < kernels::kGridSide * kernels::kGridSide; ++k) {
+    grid.across[k] = float(k % kernels::kGridSide) - 8.5F;
+    grid.down[k] = float(k / kernels::kGridSide) - 8.5F;
+  }
+  for (int k = 0; k < 256; ++k) {
+    const double across = (k % 16 - 7.5) * kCellsPerSample;
+    const double down = (k / 16 - 7.5) * kCellsPerSample;
+    grid.window[k] = float(exponential(-(across * across + down * down) / 8));
+  }
+  return grid;
+}
+
+Descriptor described(const Octave& octave, const Spot& spot, float angle_rad,
+                     const kernels::DescriptorGrid& grid, const kernels::Table& kernels) {
+  constexpr double kSigmasPerSample = 3 * 5. / 16;
+  const Direction along = direction(double(angle_rad));
+  const Plane<std::int16_t>& plane = octave.level(spot.layer);
+  Descriptor result;
+  kernels::DescriptorPatch patch{};
+  patch.grid = &grid;
+  patch.image = plane.row(0);
+  patch.stride = plane.stride();
+  patch.width = octave.width();
+  patch.height = octave.height();
+  patch.u = spot.u;
+  patch.v = spot.v;
+  patch.step_u = float(along.cosine * kSigmasPerSample * double(spot.sigma));
+  patch.step_v = float(along.sine * kSigmasPerSample * double(spot.sigma));
+  patch.bins = result.bin.data();
+  kernels.describe(patch);
+  return result;
+}
+
+}  // namespace kestrel::sift
