@@ -47,7 +47,7 @@ struct AffineVotes::Prediction {
   }
 };
 
-void AgreementOptions::check() const {
+void AffineVoteOptions::check() const {
   const auto above_0 = [](double x) { return x > 0 && std::isfinite(x); };
   require(above_0(position_px), "agreement.position_px: must be above 0");
   require(position_share >= 0 && std::isfinite(position_share),
@@ -56,14 +56,14 @@ void AgreementOptions::check() const {
   require(above_0(same_place_px), "agreement.same_place_px: must be above 0");
 }
 
-AffineVotes::Limits::Limits(const AgreementOptions& options)
+AffineVotes::Limits::Limits(const AffineVoteOptions& options)
     : cosh(float(std::cosh(options.log_scale))),
       squared_sinh(float(std::pow(std::sinh(options.log_scale), 2))),
       squared_share(float(options.position_share * options.position_share)),
       squared_px(float(options.position_px * options.position_px)),
       squared_same_place(float(options.same_place_px * options.same_place_px)) {}
 
-AffineVotes::AffineVotes(const std::vector<AffinePair>& pairs, const AgreementOptions& options)
+AffineVotes::AffineVotes(const std::vector<AffinePair>& pairs, const AffineVoteOptions& options)
     : limits_(options), columns_(Eigen::Index(pairs.size()), int(kColumns)) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const AffinePair& pair = pairs[i];

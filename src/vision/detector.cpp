@@ -9,21 +9,23 @@ struct Detector::Memory {
   FeatureMatcher matcher;
 };
 
-Detector::Detector(const TrackOptions& options)
-    : options_(options),
-      memory_(std::make_unique<Memory>(Memory{FastSift(sift_of(options)), FeatureMatcher()})) {}
+Detector::Detector(const Template& model, const TrackOptions& options)
+    : size_{model.width(), model.height()}, options_(options.detect) {
+  options_.sift.simd = options_.match.simd = options.simd;
+  memory_ = std::make_unique<Memory>(
+      Memory{FastSift(options_.sift), FeatureMatcher(model.features(), options_.match)});
+}
 
 Detector::~Detector() = default;
 Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 
-Detection Detector::detect(const Template& model, const cv::Mat& gray, const PixelBox& window) {
-  Detection result;
+Detection Detector::detect(const cv::Mat& gray, const PixelBox& window) {
   const SiftPoints& seen = memory_->sift.detect(gray, window);
+  Detection result;
   result.keypoints = int(seen.at.size());
-  result.pairs = match_features(model.features(), seen, options_.detect.match);
-  result.hypotheses =
-      vote_homographies(result.pairs, model.width(), model.height(), options_.detect.fit);
+  result.pairs = memory_->matcher.match(seen);
+  result.hypotheses = vote_homographies(result.pairs, size_.width, size_.height, options_.fit);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kestrel/vision/corner_covariance.hpp"
 #include "kestrel/vision/outline_deviation.hpp"
 #include "kestrel/vision/window.hpp"
 
@@ -13,6 +14,9 @@ constexpr std::size_t kFewestKeypoints = 4;
 
 /// A window of less than this holds no keypoint: looking there would be a frame thrown away.
 constexpr double kMinSidePx = 16;
+
+/// Of a keypoint's coordinate: a few pairs can agree better by chance, px.
+constexpr double kLeastNoisePx = 0.5;
 
 /// The part of the window that lies in the image; the whole image when too little does (another
 /// camera mode, a window that is not finite).
@@ -65,7 +69,13 @@ Track look(const Template& model, const Frame& frame, const PixelBox& window,
   if (!fit) return result;
   result.inliers = chosen(pairs, fit->inliers);
   result.miss = doubt(model, fit->image_from_template, result.inliers, options);
-  if (result.miss == Miss::None) result.image_from_template = fit->image_from_template;
+  if (result.miss != Miss::None) return result;
+  result.image_from_template = fit->image_from_template;
+  result.status = TrackStatus::Found;
+  result.stage = TrackStage::Detected;
+  result.confidence = double(result.inliers.size()) / result.matches;
+  result.corner_covariance = corner_covariance(fit->image_from_template, result.inliers,
+                                               model.width(), model.height(), kLeastNoisePx);
   return result;
 }
 

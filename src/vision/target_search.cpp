@@ -68,7 +68,7 @@ TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
     : model_(model),
       options_(options),
       aligner_(model.blocks(), align_options(model, options)),
-      detector_(options) {}
+      detector_(model, options) {}
 
 void TargetSearch::look(const Frame& frame, const PixelBox& window) {
   pyramid_.look(frame.gray, window, aligner_.levels(), options_.simd);
@@ -110,7 +110,7 @@ Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
   Sighting result;
   result.stage = TrackStage::Detected;
   result.window = clipped(window, frame.gray.cols, frame.gray.rows);
-  const Detection seen = detector_.detect(model_, frame.gray, result.window);
+  const Detection seen = detector_.detect(frame.gray, result.window);
   result.keypoints = seen.keypoints;
   result.matches = int(seen.pairs.size());
   result.miss = seen.keypoints < 4                                 ? Miss::FewKeypoints

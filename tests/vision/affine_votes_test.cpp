@@ -31,7 +31,7 @@ TEST(AffineVotes, AreGivenByEveryPairOfOneAffineMap) {
   o.outliers = 0;
   o.noise_px = o.log_scale_sigma = o.angle_sigma = 0;
   const auto pairs = test::planted(H, o, random);
-  AgreementOptions strict;
+  AffineVoteOptions strict;
   strict.position_px = 0.01;  // float: coordinates of 1e3 px to 1e-4
   strict.position_share = 0;
   strict.log_scale = 0.01;
@@ -67,7 +67,7 @@ TEST(AffineVotes, LetChancePairsThroughOnceInAThousand) {
 
 /// The largest difference that still agrees, by bisection; `other` makes a pair of a difference.
 template <class Other>
-double bound(const AffinePair& voter, const AgreementOptions& options, Other other) {
+double bound(const AffinePair& voter, const AffineVoteOptions& options, Other other) {
   double low = 0;
   double high = 1000;
   while (high - low > 1e-5) {
@@ -79,7 +79,7 @@ double bound(const AffinePair& voter, const AgreementOptions& options, Other oth
 }
 
 TEST(AffineVotes, AllowTheBoundsOfTheirOptions) {
-  const AgreementOptions o;
+  const AffineVoteOptions o;
   const AffinePair voter = pair_at({20, 20}, {100, 100}, 0.4, std::log(2));
   const auto predicted = [](double far) {
     return Pixel{100 + 2 * far * std::cos(0.4), 100 + 2 * far * std::sin(0.4)};
@@ -138,12 +138,12 @@ TEST(AffineVotes, AreNotGivenByNonsense) {
   }
 }
 
-TEST(AgreementOptions, NameWhatIsOutOfRange) {
-  EXPECT_NO_THROW(AgreementOptions().check());
-  for (double AgreementOptions::*field :
-       {&AgreementOptions::position_px, &AgreementOptions::position_share,
-        &AgreementOptions::log_scale, &AgreementOptions::same_place_px}) {
-    AgreementOptions options;
+TEST(AffineVoteOptions, NameWhatIsOutOfRange) {
+  EXPECT_NO_THROW(AffineVoteOptions().check());
+  for (double AffineVoteOptions::*field :
+       {&AffineVoteOptions::position_px, &AffineVoteOptions::position_share,
+        &AffineVoteOptions::log_scale, &AffineVoteOptions::same_place_px}) {
+    AffineVoteOptions options;
     options.*field = -1;
     EXPECT_THROW(options.check(), std::invalid_argument);
     options.*field = std::numeric_limits<double>::quiet_NaN();

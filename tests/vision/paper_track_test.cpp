@@ -1,4 +1,4 @@
-#include "kestrel/vision/track.hpp"
+#include "kestrel/vision/paper_track.hpp"
 
 #include <cmath>
 #include <limits>
@@ -24,6 +24,11 @@ constexpr int kWidth = 200;
 constexpr int kHeight = 160;
 const PixelBox kBox{60, 50, 90, 70};
 const Pixel kCentre{104.5, 84.5};
+const TrackOptions kPaper = [] {
+  TrackOptions options;
+  options.method = TrackMethod::Paper;
+  return options;
+}();
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const cv::Mat& scene() {
@@ -35,7 +40,7 @@ const cv::Mat& scene() {
 }
 
 const Template& model() {
-  static const Template learned(scene(), kBox, {}, {});
+  static const Template learned(scene(), kBox, kPaper);
   return learned;
 }
 
@@ -53,7 +58,7 @@ Track track_view(const Homography& motion, const TrackState& state, double noise
   test::Random random("view noise");
   cv::Mat image = test::view(scene(), motion, kWidth, kHeight);
   test::add_noise(image, noise, random);
-  return track(model(), frame_of(image), state, {});
+  return paper_track(model(), frame_of(image), state, kPaper);
 }
 
 Homography truth(const Homography& motion) {
@@ -67,9 +72,9 @@ bool same(const Track& a, const Track& b) {
          (!a.found() || a.image_from_template->H == b.image_from_template->H);
 }
 
-TEST(Track, FindsTheTemplateWhereItWasLearned) {
-  const TrackState start = start_tracking(model(), kWidth, kHeight);
-  const Track seen = track(model(), frame_of(scene()), start, {});
+TEST(PaperTrack, FindsTheTemplateWhereItWasLearned) {
+  const TrackState start = TrackState{first_window(kBox, kWidth, kHeight)};
+  const Track seen = paper_track(model(), frame_of(scene()), start, kPaper);
   ASSERT_TRUE(seen.found());
   EXPECT_EQ(seen.miss, Miss::None);
   EXPECT_EQ(seen.window.width, 2 * kBox.width);
@@ -79,7 +84,7 @@ TEST(Track, FindsTheTemplateWhereItWasLearned) {
   EXPECT_GT(int(seen.inliers.size()), int(model().keypoints().at.size()) / 2);
 }
 
-TEST(Track, RecoversKnownViews) {
+TEST(PaperTrack, RecoversKnownViews) {
   for (const test::Motion& motion :
        {test::Motion{0.5, 0, 0, 0}, test::Motion{0.7, 0.3, 0, 0}, test::Motion{1.4, -0.3, 0, 0},
         test::Motion{2, 0, 0, 0}, test::Motion{1, M_PI / 4, 0, 0}, test::Motion{1, M_PI, 0, 0},
@@ -96,7 +101,7 @@ TEST(Track, RecoversKnownViews) {
   }
 }
 
-TEST(Track, LooksNextAroundTheOutlineItFound) {
+TEST(PaperTrack, LooksNextAroundTheOutlineItFound) {
   const Homography H = test::moved({0.7, 0, 0, 0}, kCentre, {95, 75});
   const Track seen = track_view(H, everywhere());
   ASSERT_TRUE(seen.found());
@@ -108,7 +113,7 @@ TEST(Track, LooksNextAroundTheOutlineItFound) {
   EXPECT_EQ(seen.next.window.height, expected.height);
 }
 
-TEST(Track, DoublesItsWindowUntilItFindsTheTemplateAgain) {
+TEST(PaperTrack, DoublesItsWindowUntilItFindsTheTemplateAgain) {
   const Homography H = test::moved({0.6, 0, 0, 0}, kCentre, {155, 120});
   TrackState state{{0, 0, 64, 64}};  // where it is not
   double area = 64 * 64;
@@ -127,14 +132,14 @@ TEST(Track, DoublesItsWindowUntilItFindsTheTemplateAgain) {
   FAIL() << "not found again";
 }
 
-TEST(Track, LooksOnlyInItsWindow) {
-  const Track seen = track(model(), frame_of(scene()), {{0, 0, 70, 64}}, {});
+TEST(PaperTrack, LooksOnlyInItsWindow) {
+  const Track seen = paper_track(model(), frame_of(scene()), {{0, 0, 70, 64}}, {});
   EXPECT_FALSE(seen.found());
   EXPECT_EQ(seen.window.width, 70);
   EXPECT_EQ(seen.window.height, 64);
 }
 
-TEST(Track, IsLostWhereThereIsNothing) {
+TEST(PaperTrack, IsLostWhereThereIsNothing) {
   test::Random random("nothing");
   cv::Mat black(kHeight, kWidth, CV_8U, cv::Scalar(0));
   cv::Mat white(kHeight, kWidth, CV_8U, cv::Scalar(255));
@@ -142,37 +147,37 @@ TEST(Track, IsLostWhereThereIsNothing) {
   test::add_noise(noise, 60, random);
   const cv::Mat other = test::texture(kWidth, kHeight, random);
   for (const cv::Mat& image : {black, white, noise, other}) {
-    const Track seen = track(model(), frame_of(image), everywhere(), {});
+    const Track seen = paper_track(model(), frame_of(image), everywhere(), kPaper);
     EXPECT_FALSE(seen.found());
     EXPECT_NE(seen.miss, Miss::None);
   }
-  EXPECT_EQ(track(model(), frame_of(black), everywhere(), {}).miss, Miss::FewKeypoints);
+  EXPECT_EQ(paper_track(model(), frame_of(black), everywhere(), kPaper).miss, Miss::FewKeypoints);
 }
 
-TEST(Track, IsLostInSaturationNotWrong) {
+TEST(PaperTrack, IsLostInSaturationNotWrong) {
   cv::Mat saturated;
   scene().convertTo(saturated, CV_8U, 30, -2000);  // black and white only
-  const Track seen = track(model(), frame_of(saturated), everywhere(), {});
+  const Track seen = paper_track(model(), frame_of(saturated), everywhere(), kPaper);
   if (seen.found()) {
     EXPECT_LT(test::corner_distance(*seen.image_from_template, test::translation(60, 50), 90, 70),
               5);
   }
   cv::Mat burnt;
   scene().convertTo(burnt, CV_8U, 1, 240);
-  EXPECT_FALSE(track(model(), frame_of(burnt), everywhere(), {}).found());
+  EXPECT_FALSE(paper_track(model(), frame_of(burnt), everywhere(), kPaper).found());
 }
 
-TEST(Track, DoesNotTakeAMirrorImageForTheTemplate) {
+TEST(PaperTrack, DoesNotTakeAMirrorImageForTheTemplate) {
   cv::Mat mirrored;
   cv::flip(scene(), mirrored, 1);
-  EXPECT_FALSE(track(model(), frame_of(mirrored), everywhere(), {}).found());
+  EXPECT_FALSE(paper_track(model(), frame_of(mirrored), everywhere(), kPaper).found());
 }
 
-TEST(Track, WaitsWhereItWasWithoutAnImage) {
+TEST(PaperTrack, WaitsWhereItWasWithoutAnImage) {
   const TrackState state{{12, 34, 100, 90}};
   for (const cv::Mat& image : {cv::Mat(), cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(9)),
                                cv::Mat(kHeight, kWidth, CV_32F, cv::Scalar(9))}) {
-    const Track seen = track(model(), frame_of(image), state, {});
+    const Track seen = paper_track(model(), frame_of(image), state, kPaper);
     EXPECT_FALSE(seen.found());
     EXPECT_EQ(seen.miss, Miss::NoImage);
     EXPECT_EQ(seen.next.window.u, 12);
@@ -180,70 +185,70 @@ TEST(Track, WaitsWhereItWasWithoutAnImage) {
   }
 }
 
-TEST(Track, GoesOnWhenTheImageChangesItsSize) {
+TEST(PaperTrack, GoesOnWhenTheImageChangesItsSize) {
   const TrackState state{{150, 120, 90, 80}};
   const cv::Mat small = scene()(cv::Rect(50, 40, 120, 100)).clone();  // the window lies outside
-  const Track seen = track(model(), frame_of(small), state, {});
+  const Track seen = paper_track(model(), frame_of(small), state, kPaper);
   EXPECT_EQ(seen.window.width, 120);
   ASSERT_TRUE(seen.found());
   EXPECT_LT(test::corner_distance(*seen.image_from_template, test::translation(10, 10), 90, 70), 1);
   const cv::Mat tiny = scene()(cv::Rect(100, 80, 5, 4)).clone();
-  EXPECT_EQ(track(model(), frame_of(tiny), state, {}).miss, Miss::FewKeypoints);
+  EXPECT_EQ(paper_track(model(), frame_of(tiny), state, kPaper).miss, Miss::FewKeypoints);
 }
 
-TEST(Track, SearchesTheWholeImageForAWindowThatIsNone) {
+TEST(PaperTrack, SearchesTheWholeImageForAWindowThatIsNone) {
   for (const PixelBox& window : {PixelBox{kNaN, 0, 10, 10}, PixelBox{}, PixelBox{1e9, 1e9, 5, 5}}) {
-    const Track seen = track(model(), frame_of(scene()), {window}, {});
+    const Track seen = paper_track(model(), frame_of(scene()), {window}, kPaper);
     EXPECT_TRUE(seen.found());
     EXPECT_EQ(seen.window.width, kWidth);
     EXPECT_EQ(seen.window.height, kHeight);
   }
 }
 
-TEST(Track, RejectsAnOutlineThatIsNoView) {
-  TrackOptions options;
+TEST(PaperTrack, RejectsAnOutlineThatIsNoView) {
+  TrackOptions options = kPaper;
   options.outline.max_area_ratio = 1.2;
   const cv::Mat twice =
       test::view(scene(), test::moved({1.5, 0, 0, 0}, kCentre, {100, 80}), kWidth, kHeight);
-  const Track seen = track(model(), frame_of(twice), everywhere(), options);
+  const Track seen = paper_track(model(), frame_of(twice), everywhere(), options);
   EXPECT_EQ(seen.miss, Miss::BadOutline);
   EXPECT_FALSE(seen.found());
   EXPECT_GE(int(seen.inliers.size()), options.ransac.min_inliers);
 }
 
-TEST(Track, DoesNotGuessTheOutlineFromOneCorner) {
+TEST(PaperTrack, DoesNotGuessTheOutlineFromOneCorner) {
   cv::Mat covered(kHeight, kWidth, CV_8U, cv::Scalar(128));
   const cv::Rect corner(50, 40, 46, 40);  // what is left to see
   scene()(corner).copyTo(covered(corner));
-  TrackOptions trusting;
+  TrackOptions trusting = kPaper;
   trusting.max_outline_deviation_px = 1e6;
-  const Track seen = track(model(), frame_of(covered), everywhere(), trusting);
+  const Track seen = paper_track(model(), frame_of(covered), everywhere(), trusting);
   ASSERT_GE(int(seen.inliers.size()), trusting.ransac.min_inliers);
-  EXPECT_EQ(track(model(), frame_of(covered), everywhere(), {}).miss, Miss::Undetermined);
+  EXPECT_EQ(paper_track(model(), frame_of(covered), everywhere(), kPaper).miss, Miss::Undetermined);
 }
 
-TEST(Track, IsAFunctionOfItsArguments) {
+TEST(PaperTrack, IsAFunctionOfItsArguments) {
   const Homography H = test::moved({0.8, 0.4, 0.4, 1}, kCentre, {103, 83});
   const cv::Mat image = test::view(scene(), H, kWidth, kHeight);
-  const Track first = track(model(), frame_of(image), everywhere(), {});
+  const Track first = paper_track(model(), frame_of(image), everywhere(), kPaper);
   ASSERT_TRUE(first.found());
-  track(model(), frame_of(scene()), everywhere(), {});
+  paper_track(model(), frame_of(scene()), everywhere(), kPaper);
   cv::theRNG().next();
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
-  EXPECT_TRUE(same(first, track(model(), frame_of(image), everywhere(), {})));
+  EXPECT_TRUE(same(first, paper_track(model(), frame_of(image), everywhere(), kPaper)));
   cv::setNumThreads(threads);
   Track there;
   std::thread([&] {
-    const Template again(scene(), kBox, {}, {});
-    there = track(again, frame_of(image), everywhere(), {});
+    const Template again(scene(), kBox, kPaper);
+    there = paper_track(again, frame_of(image), everywhere(), kPaper);
   }).join();
   EXPECT_TRUE(same(first, there));
 }
 
-TEST(Track, DrawsAnewInEveryFrame) {
+TEST(PaperTrack, DrawsAnewInEveryFrame) {
   // A tolerance below the noise: how many trials that costs depends on the draws.
-  TrackOptions strict;
+  TrackOptions strict = kPaper;
   strict.ransac.max_reprojection_px = 0.3;
   const Homography H = test::moved({0.8, 0.4, 0, 0}, kCentre, {103, 83});
   cv::Mat image = test::view(scene(), H, kWidth, kHeight);
@@ -251,12 +256,13 @@ TEST(Track, DrawsAnewInEveryFrame) {
   test::add_noise(image, 6, random);
   std::set<int> trials;
   for (std::int64_t index = 0; index < 3; ++index) {
-    trials.insert(track(model(), frame_of(image, index), {{40, 30, 120, 100}}, strict).trials);
+    trials.insert(
+        paper_track(model(), frame_of(image, index), {{40, 30, 120, 100}}, strict).trials);
   }
   EXPECT_GT(trials.size(), 1U);
 }
 
-TEST(Track, NamesEveryMissDifferently) {
+TEST(PaperTrack, NamesEveryMissDifferently) {
   std::set<std::string> names;
   for (const Miss miss : {Miss::None, Miss::NoImage, Miss::FewKeypoints, Miss::FewMatches,
                           Miss::NoConsensus, Miss::BadOutline, Miss::Undetermined}) {
@@ -264,22 +270,6 @@ TEST(Track, NamesEveryMissDifferently) {
   }
   EXPECT_EQ(names.size(), 7U);
   EXPECT_STREQ(name(Miss::None), "found");
-}
-
-TEST(TrackOptions, NamesWhatIsOutOfRange) {
-  EXPECT_NO_THROW(TrackOptions().check());
-  const auto complains = [](auto change) {
-    TrackOptions options;
-    change(options);
-    EXPECT_THROW(options.check(), std::invalid_argument);
-  };
-  complains([](TrackOptions& o) { o.sift.sigma = kNaN; });
-  complains([](TrackOptions& o) { o.match.ratio = 1; });
-  complains([](TrackOptions& o) { o.ransac.max_trials = -1; });
-  complains([](TrackOptions& o) { o.outline.min_area_ratio = 0; });
-  complains([](TrackOptions& o) { o.outline.max_area_ratio = kNaN; });
-  complains([](TrackOptions& o) { o.outline.min_side_px = -1; });
-  complains([](TrackOptions& o) { o.max_outline_deviation_px = 0; });
 }
 
 }  // namespace

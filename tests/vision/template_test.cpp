@@ -17,6 +17,12 @@
 namespace kestrel {
 namespace {
 
+const TrackOptions kPaper = [] {
+  TrackOptions options;
+  options.method = TrackMethod::Paper;
+  return options;
+}();
+
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -27,7 +33,7 @@ cv::Mat scene() {
 
 std::string complaint(const cv::Mat& gray, const PixelBox& box) {
   try {
-    const Template model(gray, box, {}, {});
+    const Template model(gray, box, kPaper);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -37,7 +43,7 @@ std::string complaint(const cv::Mat& gray, const PixelBox& box) {
 TEST(Template, KeepsItsPictureWhenTheImageChanges) {
   cv::Mat image = scene();
   const cv::Mat before = image(cv::Rect(50, 40, 90, 70)).clone();
-  const Template model(image, {50, 40, 90, 70}, {}, {});
+  const Template model(image, {50, 40, 90, 70}, kPaper);
   image.setTo(0);
   EXPECT_EQ(model.width(), 90);
   EXPECT_EQ(model.height(), 70);
@@ -48,7 +54,7 @@ TEST(Template, KeepsItsPictureWhenTheImageChanges) {
 TEST(Template, HasTheKeypointsOfTheFirstWindowThatLieInIt) {
   const cv::Mat image = scene();
   const PixelBox box{50, 40, 90, 70};
-  const Template model(image, box, {}, {});
+  const Template model(image, box, kPaper);
   const Keypoints& own = model.keypoints();
   ASSERT_GT(own.at.size(), 20U);
   ASSERT_EQ(own.descriptors.rows, int(own.at.size()));
@@ -69,7 +75,7 @@ TEST(Template, HasTheKeypointsOfTheFirstWindowThatLieInIt) {
 
 TEST(Template, CanBeTheWholeImage) {
   const cv::Mat image = scene();
-  EXPECT_NO_THROW(Template(image, {0, 0, 200, 160}, {}, {}));
+  EXPECT_NO_THROW(Template(image, {0, 0, 200, 160}, kPaper));
 }
 
 TEST(Template, SaysWhatToDoAboutARectangleOutside) {

@@ -12,7 +12,7 @@ namespace kestrel {
 /// When one pair agrees with what another one predicts. A keypoint's scale and angle are known to
 /// about 15 % and 10 degrees, and a tilted plane is only roughly a similarity: the bounds are wide.
 /// All of them together still let a chance pair through about once in a thousand.
-struct AgreementOptions {
+struct AffineVoteOptions {
   double position_px = 6;       // in the image, next to the keypoint that predicts
   double position_share = 0.5;  // of the distance from that keypoint, added in squares
   double log_scale = 0.75;      // scales by up to 2.1: noise of two keypoints, tilt, perspective
@@ -44,7 +44,7 @@ struct TurnBounds {
 /// mirrored agree with nothing.
 class AffineVotes {
  public:
-  AffineVotes(const std::vector<AffinePair>& pairs, const AgreementOptions& options);
+  AffineVotes(const std::vector<AffinePair>& pairs, const AffineVoteOptions& options);
 
   /// How many other pairs agree with this one; 0 for a pair that is not usable.
   int count(std::size_t voter) const;
@@ -71,7 +71,7 @@ class AffineVotes {
   static constexpr int kColumns = kUsable + 1;
   struct Prediction;
   struct Limits {
-    explicit Limits(const AgreementOptions& options);
+    explicit Limits(const AffineVoteOptions& options);
     float cosh, squared_sinh, squared_share, squared_px, squared_same_place;
   };
   TurnBounds bounds(float a, float b) const;

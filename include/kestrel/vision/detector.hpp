@@ -22,18 +22,24 @@ struct Detection {
 /// Finds a template in a window by its keypoints. Keeps its memory from frame to frame.
 class Detector {
  public:
-  explicit Detector(const TrackOptions& options);
+  /// The model must have been learned for Detect or Hybrid.
+  Detector(const Template& model, const TrackOptions& options);
   ~Detector();
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
 
   /// Keypoints of the part of an 8-bit grey image inside window, matched with those of the model
-  /// (learned for Detect or Hybrid) and fitted.
-  Detection detect(const Template& model, const cv::Mat& gray, const PixelBox& window);
+  /// and fitted.
+  Detection detect(const cv::Mat& gray, const PixelBox& window);
 
  private:
   struct Memory;
-  TrackOptions options_;
+  struct Size {
+    double width = 0;
+    double height = 0;
+  };
+  Size size_;
+  DetectOptions options_;
   std::unique_ptr<Memory> memory_;
 };
 

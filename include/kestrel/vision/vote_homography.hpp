@@ -19,7 +19,7 @@ struct VoteOptions {
   int max_voters = 64;             // the most distinctive pairs; all when there are no more
   int min_votes = 2;               // with the voter three pairs: an affine map
   double min_vote_share = 0.25;    // of the most votes: fewer are chance or a worse answer
-  AgreementOptions agreement;
+  AffineVoteOptions agreement;
   double first_noise_share = 0.15;  // as in GrowthOptions, the next two as well
   double perspective = 0.3;
   double same_place_px = 1;

@@ -1,0 +1,1 @@
+#include "kestrel/vision/target_search.hpp"
