@@ -33,6 +33,10 @@ vertical-align:baseline;overflow-wrap:anywhere}
 tr:last-child>*{border-bottom:0}
 td.n{text-align:right;font-variant-numeric:tabular-nums;font-weight:600;padding-left:12px}
 td.u{color:var(--soft);padding-left:6px;width:4.5em;white-space:nowrap}
+.wide{overflow-x:auto;margin-bottom:14px}
+.wide th,.wide td{padding:3px 8px;white-space:nowrap}
+.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal}
+.wide tbody tr:hover{background:var(--page)}
 video{display:block;width:100%;border-radius:5px;background:#000}
 figure{margin:0}
 .plots{columns:2 470px;column-gap:14px}
@@ -46,7 +50,11 @@ a{color:var(--accent)}
 footer{color:var(--soft);font-size:.87rem;padding-top:26px;padding-bottom:40px}
 @media(max-width:560px){header,main,footer{padding-left:12px;padding-right:12px}.card{padding:8px}}
 @media print{:root{--page:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#ccc}
-body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}video{display:none}
+body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}.wide{overflow-x:auto;margin-bottom:14px}
+.wide th,.wide td{padding:3px 8px;white-space:nowrap}
+.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal}
+.wide tbody tr:hover{background:var(--page)}
+video{display:none}
 pre{white-space:pre-wrap}.plots{columns:2}.sheet{grid-template-columns:1fr 1fr 1fr}}
 )css";
 
