@@ -1,0 +1,81 @@
+#include "bench_sections.hpp"
+
+#include <fmt/format.h>
+
+#include "kestrel/eval/bench_pictures.hpp"
+#include "kestrel/eval/bench_table.hpp"
+
+#include "bench_figures.hpp"
+
+namespace kestrel {
+namespace {
+
+/// Every score of every run, one sequence after the other.
+std::vector<BenchScore> all_scores(const std::vector<SequencePart>& parts) {
+  std::vector<BenchScore> scores;
+  for (const SequencePart& part : parts) {
+    scores.insert(scores.end(), part.scores.begin(), part.scores.end());
+  }
+  return scores;
+}
+
+ReportTable captioned(const std::string& caption, const Table& table) {
+  ReportTable out = readable(table);
+  out.caption = caption;
+  return out;
+}
+
+}  // namespace
+
+ReportSection methods_section(const std::vector<MethodScore>& methods,
+                              const std::vector<SequencePart>& parts) {
+  ReportSection section;
+  section.title = "Methods, best first";
+  section.text =
+      "Shares are means over the sequences, each sequence alike; a refused template counts as "
+      "nothing found. Ordered by the area under the precision curve from 0 to 10 px.";
+  if (methods.size() > kMostCurves) {
+    section.text += fmt::format(" The plots show the first {}.", kMostCurves);
+  }
+  section.tables = {readable(method_time_table(methods))};
+  section.figures = {precision_plot(methods, parts), times_plot(methods, parts)};
+  return section;
+}
+
+ReportSection runs_section(const std::vector<SequencePart>& parts) {
+  const std::vector<BenchScore> scores = all_scores(parts);
+  ReportSection section;
+  section.title = "Runs, hardest sequence first";
+  section.text =
+      "Correct: within 5 px of the labels, or found where there are none. Wrong: found, but more "
+      "than 10 px off. Both are shares of the labelled frames.";
+  section.tables = {
+      captioned("Table I of the paper, and the spread of the times", paper_table(scores)),
+      captioned("All scores", run_table(scores))};
+  return section;
+}
+
+ReportSection sequence_section(const SequencePart& part, const std::vector<MethodScore>& methods) {
+  constexpr int kPictures = 3;
+  ReportSection section;
+  section.title = part.sequence->name;
+  const std::size_t frames = part.runs.empty() ? 0 : part.runs.front().frames.size();
+  section.text = fmt::format("{} frames, {} labelled.", frames, part.sequence->truth.size());
+  if (!part.sequence->truth.empty()) section.figures.push_back(error_plot(part, methods));
+  section.figures.push_back(time_plot(part, methods));
+  const auto pictures = worst_pictures(*part.sequence, part.runs, kPictures);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    for (ReportPicture picture : pictures[i]) {
+      picture.caption = part.runs[i].method + ", " + picture.caption;
+      section.pictures.push_back(std::move(picture));
+    }
+  }
+  if (!section.pictures.empty()) {
+    section.text +=
+        " Worst frames of each method below: reported outline white, true corners red, searched "
+        "window black.";
+  }
+  return section;
+}
+
+}  // namespace kestrel
