@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "kestrel/io/svg_plot.hpp"
 
@@ -65,17 +64,24 @@ Series series_of(const BenchRun& run, int colour, Value value) {
   return series;
 }
 
+/// Labelled frames are joined over a few that are not; a frame not found breaks the line, as does a
+/// stretch without labels.
 Series error_series(const SequencePart& part, const BenchRun& run, int colour) {
   constexpr double kLeast_px = 0.01;  // a logarithmic axis has no zero
-  std::map<std::int64_t, double> errors;
+  constexpr std::int64_t kBridged = 10;
+  Series series{run.method, {}, {}, colour};
+  const auto put = [&](std::int64_t frame, double error_px) {
+    series.x.push_back(double(frame));
+    series.y.push_back(error_px);
+  };
+  std::int64_t last = 0;
   for (const FrameScore& score :
        frame_scores(judged_by(part.sequence->truth, run), estimate_of(run))) {
-    if (score.error_px) errors[score.frame] = std::max(*score.error_px, kLeast_px);
+    if (score.frame - last > kBridged) put(last, kNone);
+    put(score.frame, score.error_px ? std::max(*score.error_px, kLeast_px) : kNone);
+    last = score.frame;
   }
-  return series_of(run, colour, [&](const BenchFrame& frame) {
-    const auto error = errors.find(frame.frame);
-    return error == errors.end() ? kNone : error->second;
-  });
+  return series;
 }
 
 }  // namespace
@@ -115,12 +121,12 @@ std::string times_plot(const std::vector<MethodScore>& methods,
 
 std::string error_plot(const SequencePart& part, const std::vector<MethodScore>& methods) {
   Plot plot;
-  plot.title = "Mean corner error (no line: not found, or not labelled)";
-  plot.x_label = "frame";
+  plot.title = "Mean corner error";
+  plot.x_label = "frame (no line: not found, or no label)";
   plot.y_label = "error (px)";
   plot.y_spacing = Spacing::Logarithmic;
   plot.when_empty = "no labelled frame was found";
-  plot.limits = {{kWrongPx, "wrong from here"}};
+  plot.limits = {{kWrongPx, "wrong above"}};
   for (const BenchRun& run : part.runs) {
     if (const auto c = colour(run.method, methods)) {
       plot.series.push_back(error_series(part, run, *c));

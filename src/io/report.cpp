@@ -100,9 +100,19 @@ std::string table_row(const std::vector<std::string>& cells) {
   return out + "</tr>\n";
 }
 
+/// Whether a column holds a number anywhere: then its head stands to the right too.
+bool has_number(const ReportTable& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return column < row.size() && csv_number(row[column]);
+  });
+}
+
 std::string table(const ReportTable& table) {
   std::string head;
-  for (const std::string& cell : table.head) head += "<th scope=\"col\">" + escaped(cell) + "</th>";
+  for (std::size_t i = 0; i < table.head.size(); ++i) {
+    head += fmt::format("<th scope=\"col\"{}>{}</th>", has_number(table, i) ? " class=\"n\"" : "",
+                        escaped(table.head[i]));
+  }
   std::string rows;
   for (const auto& row : table.rows) rows += table_row(row);
   const std::string caption =

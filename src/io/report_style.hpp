@@ -25,7 +25,8 @@ border-radius:8px;padding:10px 16px;margin:16px 0 0}
 .warn li{overflow-wrap:anywhere}
 .top{display:grid;gap:16px;grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr));
 align-items:start;margin-top:20px}
-.tables{display:grid;gap:6px 28px}
+.tables{display:grid;gap:6px 28px;align-items:start;
+grid-template-columns:repeat(auto-fit,minmax(min(100%,380px),1fr))}
 table{border-collapse:collapse;width:100%}
 caption{text-align:left;font-weight:600;padding:6px 0 2px}
 th,td{text-align:left;font-weight:400;padding:3px 0;border-bottom:1px solid var(--line);
@@ -35,7 +36,9 @@ td.n{text-align:right;font-variant-numeric:tabular-nums;font-weight:600;padding-
 td.u{color:var(--soft);padding-left:6px;width:4.5em;white-space:nowrap}
 .wide{overflow-x:auto;margin-bottom:14px}
 .wide th,.wide td{padding:3px 8px;white-space:nowrap}
-.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal}
+.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
+overflow-wrap:normal;line-height:1.25}
+.wide th.n{text-align:right}.wide td.n{font-weight:400}
 .wide tbody tr:hover{background:var(--page)}
 video{display:block;width:100%;border-radius:5px;background:#000}
 figure{margin:0}
@@ -52,7 +55,9 @@ footer{color:var(--soft);font-size:.87rem;padding-top:26px;padding-bottom:40px}
 @media print{:root{--page:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#ccc}
 body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}.wide{overflow-x:auto;margin-bottom:14px}
 .wide th,.wide td{padding:3px 8px;white-space:nowrap}
-.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal}
+.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
+overflow-wrap:normal;line-height:1.25}
+.wide th.n{text-align:right}.wide td.n{font-weight:400}
 .wide tbody tr:hover{background:var(--page)}
 video{display:none}
 pre{white-space:pre-wrap}.plots{columns:2}.sheet{grid-template-columns:1fr 1fr 1fr}}

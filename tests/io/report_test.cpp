@@ -98,8 +98,9 @@ TEST(ReportHtml, ASectionHoldsTablesAndPictures) {
   const std::string page = report_html(report);
   EXPECT_EQ(test::markup_fault(page), "");
   for (const char* words :
-       {"<caption>Of &lt;two&gt;</caption>", "<th scope=\"col\">px</th>", "<td>a &amp; b</td>",
-        "<td class=\"n\">1.5</td>", "alt=\"Annotated picture: frame 3\""})
+       {"<caption>Of &lt;two&gt;</caption>", "<th scope=\"col\" class=\"n\">px</th>",
+        "<th scope=\"col\">name</th>", "<td>a &amp; b</td>", "<td class=\"n\">1.5</td>",
+        "alt=\"Annotated picture: frame 3\""})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_LT(page.find("frame 3"), page.find("</section>"));
 }
