@@ -27,15 +27,22 @@ ReportTable captioned(const std::string& caption, const Table& table) {
   return out;
 }
 
-/// The table without these columns, and without those that say nothing in any row.
+/// True when the column says nothing in any row: no text, or none of what may be counted there.
+bool is_silent(const Table& table, std::size_t column) {
+  const std::string& name = table.columns[column].name;
+  const bool is_rare = name == "refused" || name == "failed" || name == "found_unlabelled";
+  return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return row[column] == SummaryValue(std::string()) ||
+           (is_rare && row[column] == SummaryValue(std::int64_t(0)));
+  });
+}
+
+/// The table without these columns, and without those that say nothing.
 Table without(Table table, const std::vector<std::string>& columns) {
   for (std::size_t i = table.columns.size(); i-- > 0;) {
     const bool is_named =
         std::find(columns.begin(), columns.end(), table.columns[i].name) != columns.end();
-    const bool is_silent = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-      return row[i] == SummaryValue(std::string());
-    });
-    if (!is_named && !is_silent) continue;
+    if (!is_named && !is_silent(table, i)) continue;
     const auto at = std::ptrdiff_t(i);
     table.columns.erase(table.columns.begin() + at);
     for (auto& row : table.rows) row.erase(row.begin() + at);
@@ -55,7 +62,7 @@ ReportSection methods_section(const std::vector<MethodScore>& methods,
   if (methods.size() > kMostCurves) {
     section.text += fmt::format(" The plots show the first {}.", kMostCurves);
   }
-  section.tables = {readable(method_time_table(methods))};
+  section.tables = {readable(without(method_time_table(methods), {}))};
   section.figures = {precision_plot(methods, parts), times_plot(methods, parts)};
   return section;
 }

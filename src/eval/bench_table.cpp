@@ -139,8 +139,8 @@ MethodName method_name(const std::string& name) {
 
 Table run_table(const std::vector<BenchScore>& scores) {
   std::vector<RunEntry> entries = names();
-  append(entries, score_entries());
   append(entries, setting_entries(scores));
+  append(entries, score_entries());
   return table_of(entries, scores);
 }
 

@@ -38,7 +38,7 @@ td.u{color:var(--soft);padding-left:6px;width:4.5em;white-space:nowrap}
 .wide th,.wide td{padding:3px 8px;white-space:nowrap}
 .wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
 overflow-wrap:normal;line-height:1.25}
-.wide th.n{text-align:right}.wide td.n{font-weight:400}
+.wide td:not(.n){white-space:normal;overflow-wrap:normal}.wide th.n{text-align:right}.wide td.n{font-weight:400}
 .wide tbody tr:hover{background:var(--page)}
 video{display:block;width:100%;border-radius:5px;background:#000}
 figure{margin:0}
@@ -57,7 +57,7 @@ body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}.
 .wide th,.wide td{padding:3px 8px;white-space:nowrap}
 .wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
 overflow-wrap:normal;line-height:1.25}
-.wide th.n{text-align:right}.wide td.n{font-weight:400}
+.wide td:not(.n){white-space:normal;overflow-wrap:normal}.wide th.n{text-align:right}.wide td.n{font-weight:400}
 .wide tbody tr:hover{background:var(--page)}
 video{display:none}
 pre{white-space:pre-wrap}.plots{columns:2}.sheet{grid-template-columns:1fr 1fr 1fr}}

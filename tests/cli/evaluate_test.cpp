@@ -87,7 +87,8 @@ TEST_F(Evaluate, SweepsSettingsInEveryCombination) {
        {"paper ransac.seed=1 match.ratio=0.2", "paper ransac.seed=1 match.ratio=0.8",
         "paper ransac.seed=2 match.ratio=0.2", "paper ransac.seed=2 match.ratio=0.8"})
     EXPECT_SAYS(outcome.out, name);
-  EXPECT_SAYS(read(path("out/summary.csv")), ",ransac.seed,match.ratio\n");
+  EXPECT_SAYS(read(path("out/summary.csv")),
+              "sequence,method,settings,ransac.seed,match.ratio,end,");
   // A smaller ratio keeps fewer matches, so the setting has reached the tracker.
   EXPECT_NE(read(path("out/runs/drift/paper,ransac.seed=1,match.ratio=0.2/frames.csv")),
             read(path("out/runs/drift/paper,ransac.seed=1,match.ratio=0.8/frames.csv")));

@@ -16,7 +16,7 @@ struct MethodName {
 MethodName method_name(const std::string& name);
 
 /// The scores of runs, a row each; doc/evaluate.md says what each column means. Nothing in it
-/// depends on the machine. Each key of the settings has a column of its own behind the others.
+/// depends on the machine. Each key of the settings has a column of its own behind them.
 Table run_table(const std::vector<BenchScore>& scores);
 
 /// The times of runs: the method's to learn the template, and its frames'.
