@@ -42,7 +42,7 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
     {"arpa/", {"link"}},
     {"netdb.h", {"link"}},
     {"dc1394/", {"io/dc1394_camera"}},
-    {"nlohmann/", {"io", "link", "app"}},
+    {"nlohmann/", {"io", "link", "eval", "app"}},
     {"opencv2/", {"vision", "loop", "io", "sim", "app"}},
 };
 

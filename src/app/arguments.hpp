@@ -8,6 +8,8 @@
 
 #include "kestrel/geometry/pixel.hpp"
 
+#include "evaluate.hpp"
+
 namespace kestrel::app {
 
 /// Options of every verb that leaves a run folder.
@@ -67,7 +69,7 @@ struct DemoArguments {
 };
 
 using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
-                               CheckArguments, DemoArguments>;
+                               CheckArguments, DemoArguments, EvaluateArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

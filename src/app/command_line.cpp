@@ -118,12 +118,17 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   const auto receive = std::make_shared<ReceiveArguments>();
   const auto check = std::make_shared<CheckArguments>();
   const auto demo = std::make_shared<DemoArguments>();
+  const auto evaluate = std::make_shared<EvaluateArguments>();
   add_track(app, track);
   add_servo(app, servo);
   add_simulate(app, simulate);
   add_receive(app, receive);
   add_check(app, check);
   add_demo(app, demo);
+  add_evaluate_options(
+      *app.add_subcommand("evaluate",
+                          "Run methods and settings over sequences and score them against truth"),
+      evaluate);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -137,6 +142,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("simulate")) return Arguments(*simulate);
   if (app.got_subcommand("receive")) return Arguments(*receive);
   if (app.got_subcommand("check")) return Arguments(*check);
+  if (app.got_subcommand("evaluate")) return Arguments(*evaluate);
   return Arguments(*demo);
 }
 

@@ -15,8 +15,11 @@ double monotonic_s() {
 Progress::Progress(std::optional<std::int64_t> total)
     : total_(total), on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (on_terminal_ && last_s_ >= 0) std::fputs("\r\x1b[K", stderr);
+  last_s_ = -1;
 }
 
 void Progress::step(std::int64_t done, const std::string& what) {

@@ -18,6 +18,8 @@ class Progress {
 
   /// Redraws the line, ten times a second at most. what: a word on the state.
   void step(std::int64_t done, const std::string& what);
+  /// Clears the line, so that something else can be printed; step() draws it again.
+  void clear();
 
  private:
   std::optional<std::int64_t> total_;

@@ -15,5 +15,6 @@ int run(const SimulateArguments& arguments);
 int run(const ReceiveArguments& arguments);
 int run(const CheckArguments& arguments);
 int run(const DemoArguments& arguments);
+int run(const EvaluateArguments& arguments);
 
 }  // namespace kestrel::app

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kestrel/eval/spread.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -22,16 +24,6 @@ std::vector<double> sorted_errors(const std::vector<FrameScore>& scores) {
   }
   std::sort(errors.begin(), errors.end());
   return errors;
-}
-
-double median(const std::vector<double>& sorted) {
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-}
-
-/// The smallest value that at least `percent` of a hundred do not exceed (nearest rank).
-double percentile(const std::vector<double>& sorted, std::size_t percent) {
-  return sorted[(sorted.size() * percent + 99) / 100 - 1];
 }
 
 struct Gaps {
@@ -57,6 +49,40 @@ Gaps gaps(const std::vector<FrameScore>& scores) {
   return result;
 }
 
+struct Recoveries {
+  std::vector<int> frames;
+  int open = 0;  // frames of a loss that has not ended
+};
+
+Recoveries recoveries(const std::vector<FrameScore>& scores) {
+  Recoveries result;
+  for (const FrameScore& score : scores) {
+    const bool is_right = score.error_px && *score.error_px <= kWrongPx;
+    if (!is_right) {
+      ++result.open;
+    } else if (result.open > 0) {
+      result.frames.push_back(result.open);
+      result.open = 0;
+    }
+  }
+  return result;
+}
+
+double share_within(const std::vector<double>& sorted, double limit_px, std::size_t of) {
+  const auto end = std::upper_bound(sorted.begin(), sorted.end(), limit_px);
+  return of == 0 ? 0.0 : double(end - sorted.begin()) / double(of);
+}
+
+int farther(const std::vector<double>& errors, double limit_px) {
+  return int(std::count_if(errors.begin(), errors.end(), [&](double e) { return e > limit_px; }));
+}
+
+double area(const std::vector<double>& errors, double to_px, std::size_t of) {
+  double sum = 0;
+  for (const double error : errors) sum += std::max(0.0, 1 - error / to_px);
+  return of == 0 ? 0.0 : sum / double(of);
+}
+
 }  // namespace
 
 std::vector<FrameScore> frame_scores(const TrackTruth& truth, const TrackEstimate& estimate) {
@@ -72,30 +98,42 @@ std::vector<FrameScore> frame_scores(const TrackTruth& truth, const TrackEstimat
   return scores;
 }
 
+std::vector<double> precision(const std::vector<FrameScore>& scores,
+                              const std::vector<double>& limits_px) {
+  const std::vector<double> errors = sorted_errors(scores);
+  std::vector<double> shares;
+  shares.reserve(limits_px.size());
+  for (const double limit : limits_px) {
+    shares.push_back(share_within(errors, limit, scores.size()));
+  }
+  return shares;
+}
+
 TrackMetrics track_metrics(const TrackTruth& truth, const TrackEstimate& estimate) {
   const std::vector<FrameScore> scores = frame_scores(truth, estimate);
   const std::vector<double> errors = sorted_errors(scores);
-  const auto share_within = [&](double limit_px) {
-    const auto end = std::upper_bound(errors.begin(), errors.end(), limit_px);
-    return scores.empty() ? 0.0 : double(end - errors.begin()) / double(scores.size());
-  };
   TrackMetrics m;
   m.labelled = int(scores.size());
   m.found = int(errors.size());
-  m.within_1px = share_within(1);
-  m.within_2px = share_within(2);
-  m.within_3px = share_within(3);
-  m.within_5px = share_within(5);
-  m.within_10px = share_within(10);
-  m.wrong = int(std::count_if(errors.begin(), errors.end(), [](double e) { return e > kWrongPx; }));
-  if (!errors.empty()) {
-    m.median_px = median(errors);
-    m.p95_px = percentile(errors, 95);
-    m.max_px = errors.back();
+  m.within_1px = share_within(errors, 1, scores.size());
+  m.within_2px = share_within(errors, 2, scores.size());
+  m.within_3px = share_within(errors, 3, scores.size());
+  m.within_5px = share_within(errors, 5, scores.size());
+  m.within_10px = share_within(errors, 10, scores.size());
+  m.area_10px = area(errors, 10, scores.size());
+  m.wrong = farther(errors, kWrongPx);
+  m.far_wrong = farther(errors, kFarWrongPx);
+  if (const auto spread = spread_of(errors)) {
+    m.median_px = spread->median;
+    m.p95_px = spread->p95;
+    m.max_px = spread->max;
   }
   const Gaps g = gaps(scores);
   m.longest_gap = g.longest;
   m.recoveries = g.recoveries;
+  Recoveries r = recoveries(scores);
+  m.recovery_frames = std::move(r.frames);
+  m.ends_lost = r.open > 0;
   for (const auto& [frame, answer] : estimate) {
     if (answer && truth.count(frame) == 0) ++m.found_unlabelled;
   }

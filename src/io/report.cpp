@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "kestrel/io/csv.hpp"
 #include "kestrel/io/markup.hpp"
 
 #include "report_style.hpp"
@@ -71,6 +72,7 @@ std::string jpeg(const cv::Mat& picture) {
                      small.rows, base64(bytes));
 }
 
+/// The pictures of a contact sheet; empty when there are none.
 std::string sheet(const std::vector<ReportPicture>& pictures) {
   std::string out;
   for (const ReportPicture& picture : pictures) {
@@ -81,18 +83,53 @@ std::string sheet(const std::vector<ReportPicture>& pictures) {
         "<figcaption>{0}</figcaption></figure>\n",
         caption, jpeg(picture.picture));
   }
-  return out.empty() ? ""
-                     : "<section>\n<h2>Pictures</h2>\n<div class=\"sheet\">\n" + out +
-                           "</div>\n</section>\n";
+  return out.empty() ? "" : "<div class=\"sheet\">\n" + out + "</div>\n";
+}
+
+std::string picture_section(const std::vector<ReportPicture>& pictures) {
+  const std::string all = sheet(pictures);
+  return all.empty() ? "" : "<section>\n<h2>Pictures</h2>\n" + all + "</section>\n";
+}
+
+std::string table_row(const std::vector<std::string>& cells) {
+  std::string out = "<tr>";
+  for (const std::string& cell : cells) {
+    const std::string text = escaped(cell);
+    out += csv_number(cell) ? "<td class=\"n\">" + text + "</td>" : "<td>" + text + "</td>";
+  }
+  return out + "</tr>\n";
+}
+
+/// Whether a column holds a number anywhere: then its head stands to the right too.
+bool has_number(const ReportTable& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return column < row.size() && csv_number(row[column]);
+  });
+}
+
+std::string table(const ReportTable& table) {
+  std::string head;
+  for (std::size_t i = 0; i < table.head.size(); ++i) {
+    head += fmt::format("<th scope=\"col\"{}>{}</th>", has_number(table, i) ? " class=\"n\"" : "",
+                        escaped(table.head[i]));
+  }
+  std::string rows;
+  for (const auto& row : table.rows) rows += table_row(row);
+  const std::string caption =
+      table.caption.empty() ? "" : "<caption>" + escaped(table.caption) + "</caption>\n";
+  return "<div class=\"card wide\" tabindex=\"0\"><table>\n" + caption + "<thead><tr>" + head +
+         "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string section(const ReportSection& part) {
   std::string out = "<section>\n<h2>" + escaped(part.title) + "</h2>\n";
   if (!part.text.empty()) out += "<p>" + escaped(part.text) + "</p>\n";
-  out += "<div class=\"plots\">\n";
+  for (const ReportTable& one : part.tables) out += table(one);
+  if (!part.figures.empty()) out += "<div class=\"plots\">\n";
   for (const std::string& figure : part.figures)
     out += "<figure class=\"card\">\n" + figure + "</figure>\n";
-  return out + "</div>\n</section>\n";
+  if (!part.figures.empty()) out += "</div>\n";
+  return out + sheet(part.pictures) + "</section>\n";
 }
 
 std::string files(const std::vector<ReportFile>& list) {
@@ -131,7 +168,7 @@ std::string report_html(const Report& report) {
   page += warnings(report.warnings) + "</header>\n<main>\n";
   page +=
       "<div class=\"top\">\n" + summary_tables(report.summary) + video(report.video) + "</div>\n";
-  page += sheet(report.pictures);
+  page += picture_section(report.pictures);
   for (const ReportSection& part : report.sections) page += section(part);
   page += files(report.files) + configuration(report.configuration);
   return page +

@@ -116,10 +116,26 @@ class VideoSequence : public FrameSource {
   std::vector<std::string> skipped_;
 };
 
-/// The images of a pattern or folder by their index, within the range asked for.
-NumberedFiles files_in_range(const SequenceOptions& options, bool pattern) {
-  const NumberedFiles all =
-      pattern ? files_of_pattern(options.input) : files_of_folder(options.input);
+bool is_pattern(const SequenceOptions& options) {
+  return options.files.empty() && options.input.find('%') != std::string::npos;
+}
+
+/// All images that are meant, by number.
+NumberedFiles all_files(const SequenceOptions& options) {
+  if (is_pattern(options)) return files_of_pattern(options.input);
+  if (options.files.empty()) return files_of_folder(options.input);
+  NumberedFiles files;
+  for (std::size_t i = 0; i < options.files.size(); ++i) files.emplace(i, options.files[i]);
+  const bool none = std::none_of(options.files.begin(), options.files.end(),
+                                 [](const fs::path& file) { return fs::exists(file); });
+  if (none) fail(options, "none of its images is there; correct their folder");
+  return files;
+}
+
+/// The images by their index, within the range asked for.
+NumberedFiles files_in_range(const SequenceOptions& options) {
+  const bool pattern = is_pattern(options);
+  const NumberedFiles all = all_files(options);
   if (all.empty()) {
     fail(options, pattern ? "no file has a name like this; correct the pattern"
                           : "the folder holds no image; name another");
@@ -150,13 +166,13 @@ std::unique_ptr<FrameSource> open_sequence(const SequenceOptions& options) {
       options.last_frame.value_or(options.first_frame) < options.first_frame) {
     fail(options, "first_frame and last_frame must be 0 or more, in this order");
   }
-  const bool pattern = options.input.find('%') != std::string::npos;
-  if (!pattern && !fs::exists(options.input))
+  const bool one = options.files.empty() && !is_pattern(options);
+  if (one && !fs::exists(options.input))
     fail(options, "there is no such file or folder; correct the path");
-  if (!pattern && fs::is_regular_file(options.input) && !is_image_name(options.input)) {
+  if (one && fs::is_regular_file(options.input) && !is_image_name(options.input)) {
     return std::make_unique<VideoSequence>(options);
   }
-  return std::make_unique<ImageSequence>(files_in_range(options, pattern),
+  return std::make_unique<ImageSequence>(files_in_range(options),
                                          options.rate_hz.value_or(kUsualRate_hz));
 }
 

@@ -78,10 +78,12 @@ struct Section::Value {
 Section::Section(std::shared_ptr<Document> document, std::size_t record)
     : document_(std::move(document)), record_(record) {}
 
-Section Section::load(const std::filesystem::path& file) {
+Section Section::load(const std::filesystem::path& file) { return parse(file, read_text(file)); }
+
+Section Section::parse(const std::filesystem::path& name, const std::string& text) {
   const auto document = std::make_shared<Document>();
-  document->file = file;
-  document->root = parse_yaml(file, read_text(file));
+  document->file = name;
+  document->root = parse_yaml(name, text);
   document->records.push_back({"", &document->root, 1, {}, {}});
   return {document, 0};
 }

@@ -49,7 +49,7 @@ class Cli : public Test {
 TEST_F(Cli, HelpAndVersionAreNoErrors) {
   const Outcome help = kestrel({"--help"}, folder_.path());
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* verb : {"track", "servo", "simulate", "receive", "check", "demo"}) {
+  for (const char* verb : {"track", "servo", "simulate", "receive", "check", "demo", "evaluate"}) {
     EXPECT_SAYS(help.out, verb);
   }
   const Outcome verb_help = kestrel({"simulate", "--help"}, folder_.path());

@@ -149,6 +149,46 @@ TEST(TrackMetrics, ARecoveryIsARightFrameAfterALoss) {
   EXPECT_EQ(metrics("..0").recoveries, 1);
 }
 
+TEST(TrackMetrics, TheAreaIsTheIntegralOfThePrecisionCurve) {
+  test::Random random("area");
+  std::string answers;
+  for (int k = 0; k < 60; ++k) answers += "0123456789X."[random.integer(0, 11)];
+  const auto scores = frame_scores(still(60), track(answers));
+  // Errors are whole pixels, so the curve is a staircase: exact by the value on each step.
+  double sum = 0;
+  for (const double share : precision(scores, {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5}))
+    sum += share;
+  EXPECT_NEAR(metrics(answers).area_10px, sum / 10, 1e-12);
+  EXPECT_EQ(metrics("000").area_10px, 1);
+  EXPECT_EQ(metrics("X..").area_10px, 0);
+  EXPECT_DOUBLE_EQ(metrics("5").area_10px, 0.5);
+}
+
+TEST(TrackMetrics, PrecisionAgreesWithTheSharesAndGrows) {
+  const std::string answers = "0123459X..";
+  const auto curve = precision(frame_scores(still(10), track(answers)), {1, 2, 3, 5, 10, 50});
+  const TrackMetrics m = metrics(answers);
+  EXPECT_EQ(curve, (std::vector<double>{m.within_1px, m.within_2px, m.within_3px, m.within_5px,
+                                        m.within_10px, m.coverage()}));
+  EXPECT_EQ(precision({}, {1}), std::vector<double>{0});
+}
+
+TEST(TrackMetrics, FarWrongIsBeyondTwentyPixels) {
+  TrackTruth truth = still(2);
+  EXPECT_EQ(track_metrics(truth, {{1, shift(20, 0)}}).far_wrong, 0);
+  EXPECT_EQ(track_metrics(truth, {{1, shift(20, 0)}}).wrong, 1);
+  EXPECT_EQ(track_metrics(truth, {{1, shift(20.01, 0)}}).far_wrong, 1);
+}
+
+TEST(TrackMetrics, ARecoveryTakesTheFramesThatWereNotRight) {
+  EXPECT_EQ(metrics("0..0.X.0X").recovery_frames, (std::vector<int>{2, 3}));
+  EXPECT_TRUE(metrics("0..0.X.0X").ends_lost);
+  EXPECT_FALSE(metrics("0..0").ends_lost);
+  EXPECT_TRUE(metrics("000").recovery_frames.empty());
+  EXPECT_TRUE(metrics("0...").recovery_frames.empty());  // never right again
+  EXPECT_TRUE(metrics("0...").ends_lost);
+}
+
 TEST(TrackMetrics, FramesWithoutARowAreNeitherRightNorWrong) {
   TrackTruth truth = still(8);
   truth.erase(3);

@@ -89,6 +89,22 @@ TEST(ReportHtml, EveryPictureHasItsWords) {
     EXPECT_NE(page.substr(at, 200).find("aria-label="), std::string::npos);
 }
 
+TEST(ReportHtml, ASectionHoldsTablesAndPictures) {
+  Report report;
+  ReportSection section{"Part", "", {}};
+  section.tables = {{"Of <two>", {"name", "px"}, {{"a & b", "1.5"}, {"c", ""}}}};
+  section.pictures = {{"frame 3", cv::Mat(8, 8, CV_8UC1, cv::Scalar(1))}};
+  report.sections = {section};
+  const std::string page = report_html(report);
+  EXPECT_EQ(test::markup_fault(page), "");
+  for (const char* words :
+       {"<caption>Of &lt;two&gt;</caption>", "<th scope=\"col\" class=\"n\">px</th>",
+        "<th scope=\"col\">name</th>", "<td>a &amp; b</td>", "<td class=\"n\">1.5</td>",
+        "alt=\"Annotated picture: frame 3\""})
+    EXPECT_THAT(page, HasSubstr(words));
+  EXPECT_LT(page.find("frame 3"), page.find("</section>"));
+}
+
 TEST(ReportHtml, LinksAVideoThatBrowsersDoNotPlay) {
   Report report;
   report.video = "overlay.avi";

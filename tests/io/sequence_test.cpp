@@ -54,6 +54,20 @@ class Sequence : public ::testing::Test {
   SequenceOptions options_;
 };
 
+TEST_F(Sequence, TakesAListOfFilesInItsOrder) {
+  options_.input = "two of them";
+  options_.files = {file(8), file(4), folder_.path() / "gone.pgm", file(5)};
+  const auto source = open_sequence(options_);
+  const auto frames = all_frames(*source);
+  EXPECT_THAT(indices(frames), ElementsAre(0, 1, 3));
+  EXPECT_EQ(frames[0].gray.at<uchar>(0, 0), 80);
+  EXPECT_EQ(frames[1].gray.at<uchar>(0, 0), 40);
+  EXPECT_THAT(source->skipped(), ElementsAre(HasSubstr("gone.pgm")));
+  options_.files = {folder_.path() / "gone.pgm"};
+  options_.package = "such-a-package";
+  EXPECT_THAT(error(), AllOf(HasSubstr("two of them"), HasSubstr("such-a-package")));
+}
+
 TEST_F(Sequence, CountsAndStampsFromItsFrameZero) {
   const auto source = open_sequence(options_);
   EXPECT_EQ(source->frame_count(), 7);

@@ -24,6 +24,12 @@ class SectionTest : public ::testing::Test {
   test::TempFolder folder_;
 };
 
+TEST_F(SectionTest, ReadsATextThatIsInNoFile) {
+  const Section s = Section::parse("--set", "track: {ratio: 0.7, other: 1}\n");
+  EXPECT_EQ(s.child("track").number("ratio"), 0.7);
+  EXPECT_THAT(message_of([&] { s.done(); }), StartsWith("--set:1: track.other: "));
+}
+
 TEST_F(SectionTest, ReadsEveryKindOfValue) {
   const Section s = load(
       "number: -1.5e-3\nwhole: 42\nword: mean\nquoted: \"12\"\non: true\noff: false\n"

@@ -24,6 +24,8 @@ using TrackEstimate = std::map<std::int64_t, std::optional<Homography>>;
 
 /// A found frame farther off than this is wrong: the tracker reported something else.
 inline constexpr double kWrongPx = 10;
+/// Farther off than this, it is another place altogether.
+inline constexpr double kFarWrongPx = 20;
 
 /// How one labelled frame was answered.
 struct FrameScore {
@@ -48,7 +50,11 @@ struct TrackMetrics {
   double within_3px = 0;
   double within_5px = 0;
   double within_10px = 0;
-  int wrong = 0;  // found, but farther off than kWrongPx or at no finite place
+  /// Area under the curve of the share within t for t from 0 to 10 px, over 10 px: 1 when every
+  /// error is 0. It is the mean over the labelled frames of max(0, 1 - error / 10 px).
+  double area_10px = 0;
+  int wrong = 0;      // found, but farther off than kWrongPx or at no finite place
+  int far_wrong = 0;  // of these, farther off than kFarWrongPx
 
   /// Errors over the found labelled frames, wrong ones included, px; empty when there are none. The
   /// median of an even number is the mean of the middle two; the 95 % point is the smallest error
@@ -62,9 +68,20 @@ struct TrackMetrics {
   int longest_gap = 0;
   /// How often the target was found again, not wrong, after it had not been found.
   int recoveries = 0;
+  /// For each time the target was lost (a labelled frame not found, or wrong) and right again
+  /// later: how many labelled frames in a row were not right.
+  std::vector<int> recovery_frames;
+  bool ends_lost = false;  // the last labelled frame was not right
   /// Frames without a row reported as found: neither right nor wrong, the target may be hidden.
   int found_unlabelled = 0;
+
+  /// Share of the labelled frames that were reported as found, right or wrong.
+  double coverage() const { return labelled > 0 ? double(found) / labelled : 0; }
 };
+
+/// Share of the frames within each of these errors, px: a precision curve. 0 for no frames.
+std::vector<double> precision(const std::vector<FrameScore>& scores,
+                              const std::vector<double>& limits_px);
 
 /// Metrics of a track against its labels. The first row's frame must be the one the estimate maps
 /// from.

@@ -10,17 +10,27 @@
 
 namespace kestrel {
 
-/// A part of a report: a heading, a sentence, and pictures as svg_plot and svg_strip make them.
-struct ReportSection {
-  std::string title;
-  std::string text;
-  std::vector<std::string> figures;  // SVG documents
-};
-
 /// A picture of the contact sheet.
 struct ReportPicture {
   std::string caption;
   cv::Mat picture;  // 8-bit BGR or grey; an empty one is left out
+};
+
+/// Rows of words and numbers below a head; what reads as a number stands to the right.
+struct ReportTable {
+  std::string caption;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A part of a report: a heading, a sentence, tables, pictures as svg_plot and svg_strip make
+/// them, and a contact sheet.
+struct ReportSection {
+  std::string title;
+  std::string text;
+  std::vector<std::string> figures;  // SVG documents
+  std::vector<ReportTable> tables{};
+  std::vector<ReportPicture> pictures{};
 };
 
 /// A file of the run folder.

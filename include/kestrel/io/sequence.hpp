@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kestrel/vision/frame.hpp"
 
@@ -14,6 +16,8 @@ struct SequenceOptions {
   /// A printf pattern (cube/image.%04d.pgm), a folder of images (natural order: 2 before 10), or a
   /// video file.
   std::string input;
+  /// Instead of a pattern or folder: these images, frame 0 first. input then names them in errors.
+  std::vector<std::filesystem::path> files;
   /// The file number of frame 0 of a pattern; without: the lowest there is.
   std::optional<std::int64_t> first_number;
   std::int64_t first_frame = 0;            // frames before it are passed over in silence

@@ -19,6 +19,8 @@ class Section {
   /// The file's root. Throws FileError for what read_text refuses, for what is no YAML, for an
   /// empty file, several documents, or a root that is no map of keys.
   static Section load(const std::filesystem::path& file);
+  /// The root of a text that is in no file; `name` stands for the file in errors.
+  static Section parse(const std::filesystem::path& name, const std::string& text);
 
   /// True when the key is there; makes it known, not read.
   bool has(const std::string& key) const;
