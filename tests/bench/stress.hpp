@@ -12,20 +12,24 @@
 /// the template is the whole of it there. Everything is in memory and a function of the options:
 /// frame k is the same whatever was rendered before it.
 ///
-/// | class         | what is hard                                             | fastest corner,
-/// px/frame | | nominal       | nothing: a gentle motion                                 | see
-/// stress_test          | | scale         | half to twice the size |                          | |
-/// rotation      | in the plane, to +-180 degrees                           | | | tilt          |
-/// out of the plane, to 60 degrees about every axis         |                          | | blur |
-/// exposure 0.6 of the frame time, defocus to sigma 2 px    |                          | | noise |
-/// sigma 8, gain 0.5-1.6, bias +-40, moving shade and shadow|                          | |
-/// occlusion     | something textured hides up to 40 %                      | | | flight        |
-/// vibration, its blur, noise; a facade of equal windows    |                          | |
-/// flight_window | the same, the template being a window of the facade      | | | fast          |
-/// the motion of blur, without blur                         |                          | | blackout
-/// | black, white, grey, absent, another poster; comes back elsewhere, at another scale and | |
-/// angle                                                    |                          | | small |
-/// a template of 60x46 px                                   |                          |
+/// | class         | what is hard                                          | fastest corner,
+/// px/frame | | ------------- | ----------------------------------------------------- |
+/// ------------------------ | | nominal       | nothing: a gentle motion | 4 | | scale         |
+/// half to twice the size                                | 6                        | | rotation |
+/// in the plane, to +-180 degrees                        | 11                       | | tilt | out
+/// of the plane, to 60 degrees about every axis      | 6                        | | blur          |
+/// exposure 0.6 of the frame time, defocus to sigma 2 px | 15                       | | noise |
+/// sigma 8, contrast 0.5-1.6, bias +-40, shade, shadow   | 4                        | | occlusion
+/// | something textured hides up to 40 %                   | 4                        | | flight |
+/// vibration, its blur, noise; a facade of equal windows | 13                       | |
+/// flight_window | the same, the template being a window of the facade   | 13 | | fast          |
+/// speed                                                 | 20                       | | blackout |
+/// 18 frames seen, 12 black, white, grey, without target | jumps                    | | | or with
+/// another one; back elsewhere, at half to twice |                          | |               | the
+/// size and any angle                                |                          | | small         |
+/// a template of 60x46 px                                | 4                        |
+///
+/// stress_test prints and bounds the speeds.
 namespace kestrel::test {
 
 /// The classes by name: the eight that are averaged first, then the extras.

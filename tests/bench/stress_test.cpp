@@ -132,40 +132,78 @@ TEST_F(Stress, TruthOfABlurredFrameIsItsMean) {
   }
 }
 
-/// A frame is the mean light over each pixel: against 9 x 9 rays a pixel, through the homography
-/// only (none of the renderer's geometry), on the poster of a tilted and a small view.
+/// Mean light over each pixel by 9 x 9 rays, through the homography only (none of the renderer's
+/// geometry); NaN where a ray leaves the poster.
+cv::Mat supersampled(const cv::Mat& poster, const PixelBox& box, const Homography& truth) {
+  const Eigen::Matrix3d back = truth.H.inverse();
+  cv::Mat light(480, 640, CV_32F);
+  for (int v = 0; v < light.rows; ++v) {
+    for (int u = 0; u < light.cols; ++u) {
+      double grey = 0;
+      for (int i = 0; i < 81 && std::isfinite(grey); ++i) {
+        const Eigen::Vector3d q =
+            back * Eigen::Vector3d(u + (i % 9 - 4) / 9., v + (double(i / 9) - 4) / 9., 1);
+        grey += value_at(poster, {(q.x() / q.z() + 0.5) / box.width * poster.cols - 0.5,
+                                  (q.y() / q.z() + 0.5) / box.height * poster.rows - 0.5}) /
+                81;
+      }
+      light.at<float>(v, u) = float(grey);
+    }
+  }
+  return light;
+}
+
+/// How a frame differs from a picture of the same: the shift of least squares (px), and what is
+/// left, as a share of the picture's contrast.
+struct Difference {
+  double shift_px = 0;
+  double residual = 0;
+  int pixels = 0;
+};
+
+Difference difference(const cv::Mat& frame, const cv::Mat& wanted) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double sum = 0;
+  double squares = 0;
+  double contrast = 0;
+  Difference result;
+  for (int v = 1; v + 1 < frame.rows; ++v) {
+    for (int u = 1; u + 1 < frame.cols; ++u) {
+      const auto w = [&](int y, int x) { return double(wanted.at<float>(y, x)); };
+      const Eigen::Vector3d g((w(v, u + 1) - w(v, u - 1)) / 2, (w(v + 1, u) - w(v - 1, u)) / 2, 1);
+      const double d = frame.at<uchar>(v, u) - w(v, u);
+      if (!std::isfinite(g.sum() + d)) continue;
+      A += g * g.transpose();
+      b += d * g;
+      squares += d * d;
+      sum += w(v, u);
+      contrast += w(v, u) * w(v, u);
+      ++result.pixels;
+    }
+  }
+  const Eigen::Vector3d x = A.ldlt().solve(b);
+  const double n = result.pixels;
+  result.shift_px = x.head<2>().norm();
+  result.residual = std::sqrt((squares - x.dot(b)) / (contrast - sum * sum / n));
+  return result;
+}
+
+/// A frame is the mean light over each pixel, in the right place, also where the view is oblique or
+/// small. The renderer's filter is up to 9 % wider than a pixel, and smoother than a square: on a
+/// picture as sharp as this circuit board that leaves a tenth of the contrast; taps of the texture
+/// without averaging would leave half of it.
 TEST_F(Stress, FrameIsTheSupersampledPoster) {
   const cv::Mat poster = load_picture(stress_texture("board").file);
   for (const auto& [cls, k] :
-       std::vector<std::pair<std::string, int>>{{"tilt", 30}, {"scale", 38}}) {
+       std::vector<std::pair<std::string, int>>{{"tilt", 30}, {"scale", 38}, {"nominal", 17}}) {
     const StressSequence sequence = stress_sequence({cls, "board", k + 1, 1});
-    const cv::Mat frame = frame_of(sequence, k);
-    const PixelBox& box = sequence.sequence.template_px;
-    Eigen::Matrix3d back = truth_homography(sequence, k).H.inverse();
-    double sum = 0;
-    int count = 0;
-    for (int v = 0; v < frame.rows; ++v) {
-      for (int u = 0; u < frame.cols; ++u) {
-        double grey = 0;
-        bool is_inside = true;
-        for (int i = 0; i < 81 && is_inside; ++i) {
-          const Eigen::Vector3d q =
-              back * Eigen::Vector3d(u + (i % 9 - 4) / 9., v + (double(i / 9) - 4) / 9., 1);
-          const Pixel t{(q.x() / q.z() + 0.5) / box.width * poster.cols - 0.5,
-                        (q.y() / q.z() + 0.5) / box.height * poster.rows - 0.5};
-          const double one = value_at(poster, t);
-          is_inside = q.z() > 0 && std::isfinite(one);
-          grey += one / 81;
-        }
-        if (!is_inside) continue;
-        sum += std::pow(grey - frame.at<uchar>(v, u), 2);
-        ++count;
-      }
-    }
-    ASSERT_GT(count, 3000);
-    // Noise 1.5 and rounding (0.3, twice) make 1.6; the pyramid's taps add up to about two levels
-    // on a picture with a deviation of 60.
-    EXPECT_LT(std::sqrt(sum / count), 3.0) << cls;
+    const cv::Mat wanted =
+        supersampled(poster, sequence.sequence.template_px, truth_homography(sequence, k));
+    const Difference found = difference(frame_of(sequence, k), wanted);
+    ASSERT_GT(found.pixels, 3000);
+    EXPECT_LT(found.shift_px, 0.02) << cls;
+    EXPECT_LT(found.residual, 0.12) << cls;
   }
 }
 
@@ -190,7 +228,7 @@ TEST_F(Stress, AFrameIsTheSameWhateverWasRenderedBefore) {
     EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0) << cls;
     const cv::Mat other = frame_of(stress_sequence({cls, "leaves", 24, 6}), 23);
     const bool is_black = std::string(cls) == "blackout";
-    if (!is_black) EXPECT_GT(cv::norm(a, other, cv::NORM_INF), 0) << cls;
+    EXPECT_EQ(cv::norm(a, other, cv::NORM_INF) == 0, is_black) << cls;
   }
 }
 
@@ -200,7 +238,7 @@ TEST_F(Stress, SpeedsArePhysical) {
   const std::map<std::string, std::pair<double, double>> bounds = {
       {"nominal", {2, 6}},        {"scale", {5, 14}}, {"rotation", {6, 14}}, {"tilt", {4, 14}},
       {"blur", {10, 24}},         {"noise", {2, 6}},  {"occlusion", {2, 6}}, {"flight", {5, 16}},
-      {"flight_window", {5, 16}}, {"fast", {10, 24}}, {"small", {2, 6}}};
+      {"flight_window", {5, 16}}, {"fast", {15, 24}}, {"small", {2, 6}}};
   for (const auto& [cls, bound] : bounds) {
     double fastest = 0;
     for (const std::string& texture : texture_names(StressSet::Dev)) {
