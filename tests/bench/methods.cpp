@@ -1,5 +1,9 @@
 #include "bench/methods.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
 #include "kestrel/vision/track.hpp"
 
 #include "bench/peers.hpp"
@@ -27,6 +31,19 @@ std::vector<BenchMethod> bench_methods() {
     methods.insert(methods.end(), more.begin(), more.end());
   }
   return methods;
+}
+
+std::vector<BenchMethod> bench_methods(const std::vector<std::string>& names) {
+  const std::vector<BenchMethod> all = bench_methods();
+  if (names.empty()) return all;
+  std::vector<BenchMethod> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const BenchMethod& method) { return method.name == name; });
+    if (found == all.end()) throw std::invalid_argument("method: there is none named " + name);
+    chosen.push_back(*found);
+  }
+  return chosen;
 }
 
 }  // namespace kestrel::test

@@ -57,4 +57,7 @@ struct StressSequence {
 /// std::runtime_error when the pictures are not installed.
 StressSequence stress_sequence(const StressOptions& options);
 
+/// All frames of a sequence, in order.
+std::vector<cv::Mat> rendered_frames(const StressSequence& sequence);
+
 }  // namespace kestrel::test

@@ -164,4 +164,14 @@ StressMotion stress_motion(const std::string& cls, const std::string& name) {
   return motion;
 }
 
+Transform<frame::Target, frame::Target> occluder_pose(double t_frames) {
+  const double along = 1.1 * std::cos(2 * M_PI * t_frames / 120);
+  const double direction = 2 * M_PI * t_frames / 330 + 0.3;
+  const double turn = 2 * M_PI * t_frames / 200;
+  Transform<frame::Target, frame::Target> pose;
+  pose.rotation << std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1;
+  pose.translation << along * std::cos(direction), along * std::sin(direction), 0;
+  return pose;
+}
+
 }  // namespace kestrel::test

@@ -62,4 +62,8 @@ struct StressMotion {
 /// to 100 %). Throws std::invalid_argument for an unknown class.
 StressMotion stress_motion(const std::string& cls, const std::string& name);
 
+/// Pose of the occluder in the poster's plane: it passes over the poster from side to side,
+/// turning; beside it in frame 0.
+Transform<frame::Target, frame::Target> occluder_pose(double t_frames);
+
 }  // namespace kestrel::test

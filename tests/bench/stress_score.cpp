@@ -64,13 +64,6 @@ std::vector<ScoredFrame> scored(const BenchMethod& method, const StressSequence&
   return result;
 }
 
-std::vector<cv::Mat> rendered_frames(const StressSequence& sequence) {
-  std::vector<cv::Mat> frames;
-  const auto source = sequence.sequence.open();
-  while (const auto frame = source->next()) frames.push_back(frame->gray.clone());
-  return frames;
-}
-
 ScoreLine score_line(const std::vector<ScoredFrame>& frames) {
   ScoreLine line;
   std::vector<double> errors;

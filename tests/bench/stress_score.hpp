@@ -25,9 +25,6 @@ struct ScoredFrame {
 std::vector<ScoredFrame> scored(const BenchMethod& method, const StressSequence& sequence,
                                 const std::vector<cv::Mat>& frames);
 
-/// All frames of a sequence.
-std::vector<cv::Mat> rendered_frames(const StressSequence& sequence);
-
 /// A line of the table. Shares are of the labelled frames; wrong counts frames more than kWrongPx
 /// off and those found where nothing is, and its share is of the labelled and absent ones.
 struct ScoreLine {

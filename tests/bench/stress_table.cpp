@@ -1,10 +1,11 @@
 // stress_table: every method on every class of rendered sequences, a line each.
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -49,17 +50,6 @@ Arguments arguments(int argc, char** argv) {
     a.textures = texture_names(a.set == "dev" ? StressSet::Dev : StressSet::HeldOut);
   }
   return a;
-}
-
-std::vector<BenchMethod> chosen_methods(const std::vector<std::string>& names) {
-  std::vector<BenchMethod> chosen;
-  for (const BenchMethod& method : bench_methods()) {
-    const bool is_wanted =
-        names.empty() || std::find(names.begin(), names.end(), method.name) != names.end();
-    if (is_wanted) chosen.push_back(method);
-  }
-  if (chosen.empty()) throw std::invalid_argument("--method: there is none of this name");
-  return chosen;
 }
 
 constexpr const char* kHead =
@@ -122,7 +112,7 @@ Scores scores_of(const std::string& cls, const Arguments& a,
 int run(int argc, char** argv) {
   cv::setNumThreads(1);
   const Arguments a = arguments(argc, argv);
-  const std::vector<BenchMethod> methods = chosen_methods(a.methods);
+  const std::vector<BenchMethod> methods = bench_methods(a.methods);
   std::ofstream csv;
   if (!a.csv.empty()) csv.open(a.csv);
   csv << kHead << "\n";
