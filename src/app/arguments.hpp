@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kestrel/geometry/pixel.hpp"
+#include "kestrel/vision/track_options.hpp"
 
 #include "evaluate.hpp"
 
@@ -29,6 +30,7 @@ struct TrackArguments {
   std::filesystem::path camera;
   std::string camera_name = "Camera";
   std::vector<double> size_m;  // width, height of the target; empty: no pose
+  TrackMethod method = TrackMethod::Hybrid;
   RunArguments run;
 };
 

@@ -48,21 +48,21 @@ class Fold {
         frame_(std::move(first)),
         pacer_(chain.pace),
         progress_(chain.source.frame_count()),
-        state_(start(chain.model, frame_, chain.task)) {
-    drawn_.goal_corners = goal_corners(chain.model, chain.task);
+        state_(start(chain.tracker, frame_)) {
+    drawn_.goal_corners = goal_corners(chain.tracker.model(), chain.task);
   }
 
   /// Takes the frame down the chain, then records it; false when the run has come to its end.
   bool frame() {
     pacer_.wait_for(frame_.stamp_s);
     const double start_s = monotonic_s();
-    Step now = step(chain_.model, frame_, state_, chain_.task);
+    Step now = step(chain_.tracker, frame_, state_, chain_.task);
     chain_.sink.send(now.decision.command, frame_.stamp_s);
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
-    LogRow row = log_row(frame_, chain_.model, now);
+    LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
-    const cv::Mat picture = overlay(frame_, chain_.model, now.track, drawn_);
+    const cv::Mat picture = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
     const bool is_open =
         chain_.recorder.record(row, picture, badness(now), {source_ms_, chain_ms, 0});
     count(now);

@@ -17,7 +17,7 @@ namespace kestrel::app {
 struct Chain {
   FrameSource& source;
   CommandSink& sink;
-  const Template& model;
+  Tracker& tracker;
   const Task& task;
   RunRecorder& recorder;
   Pace pace = Pace::AsFastAsPossible;

@@ -19,7 +19,9 @@ struct OwnMethod {
 };
 
 constexpr OwnMethod kOwnMethods[] = {
-    {"paper", [](TrackOptions&) {}},
+    {"paper", [](TrackOptions& options) { options.method = TrackMethod::Paper; }},
+    {"detect", [](TrackOptions& options) { options.method = TrackMethod::Detect; }},
+    {"hybrid", [](TrackOptions& options) { options.method = TrackMethod::Hybrid; }},
 };
 
 /// A key of the section `track` and a value for it.

@@ -36,14 +36,14 @@ RunResult servo(const ServoArguments& a) {
   const Frame first = first_frame(*source, experiment.source);
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
-  const Template model = learn_template(experiment, first);
+  Tracker tracker = learn_template(experiment, first);
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
   const ChainEnd end =
-      run_chain({*source, *sink, model, experiment.task, recorder, a.pace}, first, watch);
+      run_chain({*source, *sink, tracker, experiment.task, recorder, a.pace}, first, watch);
   RunResult result{recorder.folder(), summarise(end, *sink), end.broken ? 1 : 0};
   recorder.add_times(result.summary);
-  finish_run(recorder, model, experiment.task, end, result.summary,
+  finish_run(recorder, tracker.model(), experiment.task, end, result.summary,
              "Servo run: " + a.task.stem().string(), servo_sections);
   if (interrupted()) result.exit_code = kInterrupted;
   return result;

@@ -77,7 +77,7 @@ Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink&
 /// size and place on the target are known to the pixel.
 struct Prepared {
   Task task;
-  Template model;
+  Tracker tracker;
 };
 
 Prepared prepare(Task task, const Scene& scene) {
@@ -85,7 +85,7 @@ Prepared prepare(Task task, const Scene& scene) {
   task.target_width_m = reference.width_m;
   task.target_height_m = reference.height_m;
   task.goal = task.goal * reference.target_from_template;
-  return {task, Template(reference.image, reference.box, task.track.sift, task.track.match)};
+  return {task, Tracker(reference.image, reference.box, task.track)};
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ RunResult simulate(const SimulateArguments& a) {
   const Scene scene = scene_of(simulation);
   World world(scene, simulation.world);
   const auto goal = goal_in_world(experiment.task, simulation.world);
-  const Prepared prepared = prepare(experiment.task, scene);
+  Prepared prepared = prepare(experiment.task, scene);
   const auto outside = open_sink(a.sink);
   TeeSink sink(world, *outside);
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
@@ -123,11 +123,11 @@ RunResult simulate(const SimulateArguments& a) {
     return name(*end);
   };
   const ChainEnd end =
-      run_chain({world, sink, prepared.model, prepared.task, recorder}, *world.next(), watch);
+      run_chain({world, sink, prepared.tracker, prepared.task, recorder}, *world.next(), watch);
   const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
   RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
   recorder.add_times(result.summary);
-  finish_run(recorder, prepared.model, prepared.task, end, result.summary,
+  finish_run(recorder, prepared.tracker.model(), prepared.task, end, result.summary,
              "Simulated flight: " + a.task.stem().string(), simulate_sections);
   if (end.broken || metrics.end != FlightEnd::Converged) result.exit_code = 1;
   if (interrupted()) result.exit_code = kInterrupted;

@@ -105,16 +105,16 @@ Frame first_frame(FrameSource& source, const std::string& source_name) {
   throw std::runtime_error(why);
 }
 
-Template learn_template(const Experiment& experiment, const Frame& first) {
+Tracker learn_template(const Experiment& experiment, const Frame& first) {
   const TrackOptions& track = experiment.task.track;
   if (experiment.template_image) {
     const cv::Mat picture = cv::imread(experiment.template_image->string(), cv::IMREAD_GRAYSCALE);
     if (picture.empty()) throw FileError(*experiment.template_image, 0, "", "is no picture");
     const PixelBox all{0, 0, double(picture.cols), double(picture.rows)};
-    return {picture, experiment.template_px.value_or(all), track.sift, track.match};
+    return {picture, experiment.template_px.value_or(all), track};
   }
   return {first.gray, experiment.template_px ? *experiment.template_px : ask_rectangle(first),
-          track.sift, track.match};
+          track};
 }
 
 PixelBox ask_rectangle(const Frame& first) {

@@ -53,7 +53,8 @@ Frame first_frame(FrameSource& source, const std::string& name);
 /// when the user gives up.
 PixelBox ask_rectangle(const Frame& first);
 
-/// The template of a task: learned from its picture, or from its rectangle in the first frame.
-Template learn_template(const Experiment& experiment, const Frame& first);
+/// The tracker of a task, its template learned from the picture, or from the rectangle in the first
+/// frame.
+Tracker learn_template(const Experiment& experiment, const Frame& first);
 
 }  // namespace kestrel::app

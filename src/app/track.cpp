@@ -1,5 +1,3 @@
-#include "kestrel/vision/track.hpp"
-
 #include <cmath>
 #include <map>
 
@@ -9,6 +7,7 @@
 #include "kestrel/io/camera_file.hpp"
 #include "kestrel/io/overlay.hpp"
 #include "kestrel/io/truth_file.hpp"
+#include "kestrel/vision/tracker.hpp"
 
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -54,18 +53,20 @@ double error_px(const TrackTruth& truth, std::int64_t frame,
 /// Runs the tracker over the frames and keeps what the summary needs.
 class TrackRun {
  public:
-  TrackRun(const Template& model, const std::optional<PoseSetup>& pose, TrackTruth truth,
+  TrackRun(Tracker& tracker, const std::optional<PoseSetup>& pose, TrackTruth truth,
            RunRecorder& recorder)
-      : model_(model), pose_setup_(pose), truth_(std::move(truth)), recorder_(recorder) {}
+      : tracker_(tracker),
+        model_(tracker.model()),
+        pose_setup_(pose),
+        truth_(std::move(truth)),
+        recorder_(recorder) {}
 
-  void start(const Frame& first) {
-    state_ = start_tracking(model_, first.gray.cols, first.gray.rows);
-  }
+  void start(const Frame& first) { state_ = tracker_.start(first.gray.cols, first.gray.rows); }
 
   /// False once the user has closed the window.
   bool frame(const Frame& frame, double source_ms) {
     const double start_s = monotonic_s();
-    const Track seen = track(model_, frame, state_, options_);
+    const Track seen = tracker_.track(frame, state_);
     LogRow row = log_row(frame, model_, seen);
     add_pose(seen, row);
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
@@ -130,11 +131,11 @@ class TrackRun {
     s.add("recoveries", m.recoveries);
   }
 
+  Tracker& tracker_;
   const Template& model_;
   std::optional<PoseSetup> pose_setup_;
   TrackTruth truth_;
   RunRecorder& recorder_;
-  TrackOptions options_;
   TrackState state_;
   std::optional<TargetPose> last_pose_;
   TrackEstimate estimates_;
@@ -171,16 +172,16 @@ int run(const TrackArguments& a) {
   const TrackJob job = track_job(a);
   const auto source = open_source(job);
   const Frame first = first_frame(*source, a.input);
-  const TrackOptions options;
-  const Template model(first.gray, job.roi ? *job.roi : ask_rectangle(first), options.sift,
-                       options.match);
-  const auto pose = pose_setup(job, model, first);
+  TrackOptions options;
+  options.method = a.method;
+  Tracker tracker(first.gray, job.roi ? *job.roi : ask_rectangle(first), options);
+  const auto pose = pose_setup(job, tracker.model(), first);
   const TrackTruth truth = job.truth.empty() ? TrackTruth{} : TrackTruth(load_truth(job.truth));
   RecorderOptions wanted =
       recorder_options(a.run, {}, job.sequence.rate_hz.value_or(30), {"corner_error_px"});
   if (a.run.output.empty()) wanted.folder = default_folder(a.input);
   RunRecorder recorder(wanted);
-  TrackRun tracking(model, pose, truth, recorder);
+  TrackRun tracking(tracker, pose, truth, recorder);
   tracking.start(first);
   const std::string ended_by = fold(tracking, *source, first);
   RunResult result{recorder.folder(), tracking.summary(*source, ended_by), 0};

@@ -12,16 +12,17 @@ BenchAnswer answer_of(const Track& track) {
   answer.keypoints = track.keypoints;
   answer.matches = track.matches;
   answer.inliers = int(track.inliers.size());
-  answer.state = name(track.miss);
+  answer.state = track.found() ? name(track.status) : name(track.miss);
   return answer;
 }
 
 BenchTracker learn(const cv::Mat& gray, const PixelBox& box, const TrackOptions& options) {
-  // A std::function must be copyable, a template is not: its copies share one, which none changes.
-  const auto model = std::make_shared<const Template>(gray, box, options.sift, options.match);
-  TrackState state = start_tracking(*model, gray.cols, gray.rows);
-  return [model, state, options](const Frame& frame) mutable {
-    const Track seen = track(*model, frame, state, options);
+  // A std::function must be copyable, a tracker is not: its copies share one, whose answers do not
+  // depend on what it was asked before.
+  const auto tracker = std::make_shared<Tracker>(gray, box, options);
+  TrackState state = tracker->start(gray.cols, gray.rows);
+  return [tracker, state](const Frame& frame) mutable {
+    const Track seen = tracker->track(frame, state);
     state = seen.next;
     return answer_of(seen);
   };

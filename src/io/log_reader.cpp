@@ -29,12 +29,17 @@ bool parsed(std::string_view text, bool) {
   return text == "1";
 }
 
-Miss parsed(std::string_view text, Miss) {
-  for (const Miss miss : {Miss::None, Miss::NoImage, Miss::FewKeypoints, Miss::FewMatches,
-                          Miss::NoConsensus, Miss::BadOutline})
-    if (text == name(miss)) return miss;
+/// The one of these whose name is the text.
+template <class Names>
+typename Names::value_type named(std::string_view text, const Names& all) {
+  for (const auto one : all)
+    if (text == name(one)) return one;
   throw std::bad_optional_access();
 }
+
+Miss parsed(std::string_view text, Miss) { return named(text, kMisses); }
+TrackStatus parsed(std::string_view text, TrackStatus) { return named(text, kTrackStatuses); }
+TrackStage parsed(std::string_view text, TrackStage) { return named(text, kTrackStages); }
 
 CommandState parsed(std::string_view text, CommandState) {
   for (const CommandState state :

@@ -22,7 +22,12 @@ template <class Row, class Field>
 void visit_track(Row& row, Field& field) {
   field("frame", row.frame);
   field("stamp_s", row.stamp_s);
+  field("status", row.status);
+  field("stage", row.stage);
   field("miss", row.miss);
+  field("age_s", row.age_s);
+  field("confidence", row.confidence);
+  field("alike_share", row.alike_share);
   field("window_u_px", row.window.u);
   field("window_v_px", row.window.v);
   field("window_width_px", row.window.width);
@@ -47,6 +52,26 @@ void visit_track(Row& row, Field& field) {
       f(kNames[i][0], corners[i].u);
       f(kNames[i][1], corners[i].v);
     }
+  });
+  field.group(row.predicted, [](auto& corners, auto& f) {
+    static constexpr std::array<std::array<const char*, 2>, 4> kNames{
+        {{"predicted0_u_px", "predicted0_v_px"},
+         {"predicted1_u_px", "predicted1_v_px"},
+         {"predicted2_u_px", "predicted2_v_px"},
+         {"predicted3_u_px", "predicted3_v_px"}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      f(kNames[i][0], corners[i].u);
+      f(kNames[i][1], corners[i].v);
+    }
+  });
+  field.group(row.noise, [](auto& noise, auto& f) {
+    static constexpr std::array<std::array<const char*, 3>, 4> kNames{
+        {{"corner0_var_u_px2", "corner0_cov_uv_px2", "corner0_var_v_px2"},
+         {"corner1_var_u_px2", "corner1_cov_uv_px2", "corner1_var_v_px2"},
+         {"corner2_var_u_px2", "corner2_cov_uv_px2", "corner2_var_v_px2"},
+         {"corner3_var_u_px2", "corner3_cov_uv_px2", "corner3_var_v_px2"}}};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 3; ++k) f(kNames[i][k], noise[i][k]);
   });
   field.group(row.attitude, [](auto& attitude, auto& f) {
     f("roll_rad", attitude.roll);

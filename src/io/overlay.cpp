@@ -15,6 +15,7 @@ namespace {
 
 const cv::Scalar kWhite(255, 255, 255);
 const cv::Scalar kBlack(0, 0, 0);
+const cv::Scalar kGrey(170, 170, 170);
 const cv::Scalar kGreen(60, 220, 40);
 const cv::Scalar kRed(40, 40, 235);
 constexpr int kShift = 4;  // OpenCV draws at 1/16 px
@@ -162,9 +163,10 @@ void draw_window(cv::Mat& picture, const PixelBox& window) {
   cv::rectangle(picture, box, kBlack, 1);
 }
 
-void draw_outline(cv::Mat& picture, const std::array<Pixel, 4>& corners) {
+void draw_outline(cv::Mat& picture, const std::array<Pixel, 4>& corners, const cv::Scalar& colour,
+                  int thickness) {
   for (std::size_t i = 0; i < 4; ++i)
-    draw_line(picture, corners[i], corners[(i + 1) % 4], kWhite, 2);
+    draw_line(picture, corners[i], corners[(i + 1) % 4], colour, thickness);
 }
 
 void draw_corners(cv::Mat& picture, const std::array<Pixel, 4>& corners, const cv::Scalar& colour) {
@@ -193,9 +195,13 @@ cv::Mat overlay(const Frame& frame, const cv::Mat& template_picture, const Track
     if (has_model) {
       const auto corners =
           outline(*track.image_from_template, template_picture.cols, template_picture.rows);
-      draw_outline(picture, corners);
+      draw_outline(picture, corners, kWhite, 2);
       if (options.goal_corners) draw_corners(picture, corners, kGreen);
     }
+  }
+  if (track.predicted && has_model) {
+    draw_outline(picture, outline(*track.predicted, template_picture.cols, template_picture.rows),
+                 kGrey, 1);
   }
   if (options.goal_corners) draw_corners(picture, *options.goal_corners, kRed);
   draw(status, whole.rowRange(picture.rows, whole.rows));

@@ -57,9 +57,11 @@ std::string status_line(const Frame& frame, const Track& track,
   std::string reason = name(track.miss);
   std::replace(reason.begin(), reason.end(), '_', ' ');
   std::string line = fmt::format("frame {}", frame.index);
-  if (!track.found()) line += "   LOST: " + reason;
+  if (!track.found()) line += "   " + upper(name(track.status)) + ": " + reason;
   if (sent) line += "   " + upper(name(sent->state));
-  line += fmt::format("   {}/{} inliers", track.inliers.size(), track.matches);
+  const bool by_pixels = track.stage == TrackStage::Aligned || track.stage == TrackStage::Searched;
+  line += by_pixels ? fmt::format("   {:.0f}% alike", 100 * track.agreement.alike_share())
+                    : fmt::format("   {}/{} inliers", track.inliers.size(), track.matches);
   if (!sent) return line;
   const VelocityCommand& v = sent->command;
   return line + fmt::format("   v {:+.2f} {:+.2f} {:+.2f} m/s   yaw {:+.1f} deg/s",
@@ -81,7 +83,7 @@ StatusText fitted(const std::string& words, const std::string& longest, int widt
 }
 
 std::string longest_status(const std::optional<FailsafeCommand>& sent) {
-  const std::string seen = "frame 00000   LOST: few keypoints";
+  const std::string seen = "frame 00000   COASTING: few keypoints";
   if (!sent) return seen + "   000/000 inliers";
   return seen + "   HOVER   000/000 inliers   v +0.00 +0.00 +0.00 m/s   yaw +00.0 deg/s";
 }

@@ -30,6 +30,8 @@ std::string text(std::int64_t value) { return std::to_string(value); }
 std::string text(int value) { return std::to_string(value); }
 std::string text(bool value) { return value ? "1" : "0"; }
 std::string text(Miss value) { return name(value); }
+std::string text(TrackStatus value) { return name(value); }
+std::string text(TrackStage value) { return name(value); }
 std::string text(CommandState value) { return name(value); }
 
 // Writes the fields of one row.
@@ -93,11 +95,25 @@ void RunLog::write(const LogRow& row) {
   file_.write(fields.line);
 }
 
+CornerNoise corner_noise(const CornerCovariance& covariance) {
+  CornerNoise noise;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto u = Eigen::Index(2 * i);
+    noise[i] = {covariance(u, u), covariance(u, u + 1), covariance(u + 1, u + 1)};
+  }
+  return noise;
+}
+
 LogRow log_row(const Frame& frame, const Template& model, const Track& track) {
   LogRow row;
   row.frame = frame.index;
   row.stamp_s = frame.stamp_s;
+  row.status = track.status;
+  row.stage = track.stage;
   row.miss = track.miss;
+  row.age_s = track.age_s;
+  row.confidence = track.confidence;
+  row.alike_share = track.agreement.alike_share();
   row.window = track.window;
   row.keypoints = track.keypoints;
   row.matches = track.matches;
@@ -106,6 +122,8 @@ LogRow log_row(const Frame& frame, const Template& model, const Track& track) {
   row.image_from_template = track.image_from_template;
   if (track.found())
     row.corners = outline(*track.image_from_template, model.width(), model.height());
+  if (track.predicted) row.predicted = outline(*track.predicted, model.width(), model.height());
+  if (track.found() || track.predicted) row.noise = corner_noise(track.corner_covariance);
   row.attitude = frame.attitude;
   return row;
 }

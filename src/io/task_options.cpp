@@ -1,5 +1,6 @@
 #include "kestrel/io/task_options.hpp"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -62,6 +63,73 @@ OutlineOptions read_outline(const Section& s) {
   return o;
 }
 
+/// The words of a task file for values that have names.
+template <class Value, std::size_t N>
+std::vector<std::pair<std::string, Value>> words(const std::array<Value, N>& all) {
+  std::vector<std::pair<std::string, Value>> named;
+  for (const Value one : all) named.emplace_back(name(one), one);
+  return named;
+}
+
+DetectOptions read_detect(const Section& s) {
+  DetectOptions o;
+  o.source = s.choice("source", words(kSiftSources), o.source);
+  if (const auto sift = s.child_if("sift")) {
+    o.sift.octave_layers = sift->whole("octave_layers", o.sift.octave_layers);
+    o.sift.contrast_threshold = sift->number("contrast_threshold", o.sift.contrast_threshold);
+    o.sift.edge_threshold = sift->number("edge_threshold", o.sift.edge_threshold);
+    o.sift.sigma = sift->number("sigma_px", o.sift.sigma);
+    o.sift.max_keypoints = sift->whole("max_keypoints", o.sift.max_keypoints);
+    o.sift.is_doubled = sift->flag("doubled", o.sift.is_doubled);
+  }
+  if (const auto match = s.child_if("match")) {
+    o.match.ratio = match->number("ratio", o.match.ratio);
+    o.match.max_pairs = match->whole("max_pairs", o.match.max_pairs);
+    o.match.same_place_px = match->number("same_place_px", o.match.same_place_px);
+  }
+  if (const auto fit = s.child_if("fit")) {
+    o.fit.max_reprojection_px = fit->number("max_reprojection_px", o.fit.max_reprojection_px);
+    o.fit.min_inliers = fit->whole("min_inliers", o.fit.min_inliers);
+    o.fit.max_hypotheses = fit->whole("max_hypotheses", o.fit.max_hypotheses);
+    o.fit.max_voters = fit->whole("max_voters", o.fit.max_voters);
+  }
+  o.max_px_per_frame = s.whole("max_px_per_frame", o.max_px_per_frame);
+  return checked(s, o);
+}
+
+BlockOptions read_blocks(const Section& s) {
+  BlockOptions o;
+  o.max_blocks = s.whole("max_blocks", o.max_blocks);
+  o.max_coarse_blocks = s.whole("max_coarse_blocks", o.max_coarse_blocks);
+  o.noise_grey = s.number("noise_grey", o.noise_grey);
+  o.model_error = s.number("model_error", o.model_error);
+  return checked(s, o);
+}
+
+AlignOptions read_align(const Section& s) {
+  AlignOptions o;
+  o.max_iterations = s.whole("max_iterations", o.max_iterations);
+  o.tolerance_px = s.number("tolerance_px", o.tolerance_px);
+  o.weight_scale = s.number("weight_scale", o.weight_scale);
+  o.search_radius_px = s.whole("search_radius_px", o.search_radius_px);
+  if (const auto a = s.child_if("agreement")) {
+    o.agreement.alike_zncc = a->number("alike_zncc", o.agreement.alike_zncc);
+    o.agreement.min_alike_share = a->number("min_alike_share", o.agreement.min_alike_share);
+    o.agreement.min_better_half = a->number("min_better_half", o.agreement.min_better_half);
+    o.agreement.min_visible_share = a->number("min_visible_share", o.agreement.min_visible_share);
+    o.agreement.min_alike = a->whole("min_alike", o.agreement.min_alike);
+  }
+  return checked(s, o);
+}
+
+MotionOptions read_motion(const Section& s) {
+  MotionOptions o;
+  o.acceleration_px_s2 = s.number("acceleration_px_s2", o.acceleration_px_s2);
+  o.first_speed_px_s = s.number("first_speed_px_s", o.first_speed_px_s);
+  o.longest_gap_s = s.number("longest_gap_s", o.longest_gap_s);
+  return checked(s, o);
+}
+
 /// Velocities, or their changes, whose keys end like this.
 VelocityCommand read_velocities(const Section& s, const VelocityCommand& otherwise,
                                 const std::string& linear, const std::string& angular) {
@@ -77,6 +145,16 @@ TrackOptions read_track_options(const Section& root) {
   TrackOptions o;
   const auto s = root.child_if("track");
   if (!s) return o;
+  o.method = s->choice("method", words(kTrackMethods), o.method);
+  o.window = s->choice("window", words(kWindowPolicies), o.window);
+  o.simd = s->choice("simd", words(kSimds), o.simd);
+  if (const auto detect = s->child_if("detect")) o.detect = read_detect(*detect);
+  if (const auto blocks = s->child_if("blocks")) o.blocks = read_blocks(*blocks);
+  if (const auto align = s->child_if("align")) o.align = read_align(*align);
+  if (const auto motion = s->child_if("motion")) o.motion = read_motion(*motion);
+  o.coast_s = s->number("coast_s", o.coast_s);
+  o.weak_share = s->number("weak_share", o.weak_share);
+  o.weak_frames = s->whole("weak_frames", o.weak_frames);
   if (const auto sift = s->child_if("sift")) o.sift = read_sift(*sift);
   if (const auto match = s->child_if("match")) o.match = read_match(*match);
   if (const auto ransac = s->child_if("ransac")) o.ransac = read_ransac(*ransac);

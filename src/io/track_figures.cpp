@@ -8,10 +8,10 @@ namespace {
 
 std::string strip(const LogFile& log) {
   Strip out{"Tracker: found or why not", "time (s)", {"found"}, times(log), {}};
-  for (const Miss miss :
-       {Miss::NoImage, Miss::FewKeypoints, Miss::FewMatches, Miss::NoConsensus, Miss::BadOutline})
+  for (const Miss miss : kMisses)
     for (const LogRow& row : log.rows)
-      if (row.miss == miss && out.lanes.back() != name(miss)) out.lanes.emplace_back(name(miss));
+      if (miss != Miss::None && row.miss == miss && out.lanes.back() != name(miss))
+        out.lanes.emplace_back(name(miss));
   for (const LogRow& row : log.rows)
     out.states.emplace_back(row.image_from_template ? "found" : name(row.miss));
   return svg_strip(out);

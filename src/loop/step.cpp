@@ -25,15 +25,16 @@ std::vector<Feature> corner_features(const Homography& image_from_template, cons
   return corners;
 }
 
-LoopState start(const Template& model, const Frame& first, const Task& /*task*/) {
+LoopState start(const Tracker& tracker, const Frame& first) {
   LoopState state;
-  state.track = start_tracking(model, first.gray.cols, first.gray.rows);
+  state.track = tracker.start(first.gray.cols, first.gray.rows);
   return state;
 }
 
-Step step(const Template& model, const Frame& frame, const LoopState& state, const Task& task) {
+Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task) {
+  const Template& model = tracker.model();
   Step s;
-  s.track = track(model, frame, state.track, task.track);
+  s.track = tracker.track(frame, state.track);
   if (s.track.found()) {
     s.pose = plane_pose(*s.track.image_from_template, plane_size(model, task), task.camera,
                         state.pose, task.pose);

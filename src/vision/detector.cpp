@@ -1,8 +1,54 @@
 #include "kestrel/vision/detector.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <opencv2/features2d.hpp>
+
 namespace kestrel {
+namespace {
+
+/// As vision/keypoints: cv::SIFT of OpenCV 4.6 places its keypoints too far right and down.
+constexpr double kDoublingBiasPx = 0.25;
+
+/// RootSIFT in 7 bits of a row of cv::SIFT.
+Descriptor root(const float* bins) {
+  float sum = 0;
+  for (int i = 0; i < 128; ++i) sum += bins[i];
+  Descriptor descriptor;
+  for (int i = 0; i < 128 && sum > 0; ++i) {
+    const double value = std::round(256 * std::sqrt(double(bins[i]) / double(sum)));
+    descriptor.bin[std::size_t(i)] = std::uint8_t(std::min(value, 127.0));
+  }
+  return descriptor;
+}
+
+/// The reference: cv::SIFT's keypoints in the form of vision/sift.
+SiftPoints opencv_points(const cv::Mat& gray, const PixelBox& window,
+                         const FastSiftOptions& options) {
+  SiftPoints points;
+  const PixelBox box = clipped(window, gray.cols, gray.rows);
+  if (box.width < 8 || box.height < 8) return points;
+  const cv::Rect crop(int(box.u), int(box.v), int(box.width), int(box.height));
+  const auto sift =
+      cv::SIFT::create(options.max_keypoints, options.octave_layers, options.contrast_threshold,
+                       options.edge_threshold, options.sigma);
+  std::vector<cv::KeyPoint> found;
+  cv::Mat rows;
+  sift->detectAndCompute(gray(crop), cv::noArray(), found, rows);
+  found.resize(std::min(found.size(), std::size_t(options.max_keypoints)));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const cv::KeyPoint& k = found[i];
+    points.at.push_back({float(k.pt.x - kDoublingBiasPx + crop.x),
+                         float(k.pt.y - kDoublingBiasPx + crop.y), k.size / 2,
+                         float(k.angle * M_PI / 180), k.response});
+    points.descriptors.push_back(root(rows.ptr<float>(int(i))));
+  }
+  return points;
+}
+
+}  // namespace
 
 struct Detector::Memory {
   FastSift sift;
@@ -21,7 +67,10 @@ Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 
 Detection Detector::detect(const cv::Mat& gray, const PixelBox& window) {
-  const SiftPoints& seen = memory_->sift.detect(gray, window);
+  const bool by_opencv = options_.source == SiftSource::OpenCv;
+  const SiftPoints reference =
+      by_opencv ? opencv_points(gray, window, options_.sift) : SiftPoints();
+  const SiftPoints& seen = by_opencv ? reference : memory_->sift.detect(gray, window);
   Detection result;
   result.keypoints = int(seen.at.size());
   result.pairs = memory_->matcher.match(seen);

@@ -64,4 +64,8 @@ const char* name(WindowPolicy policy) {
   return "unknown";
 }
 
+const char* name(SiftSource source) { return source == SiftSource::Kestrel ? "kestrel" : "opencv"; }
+
+const char* name(Simd simd) { return simd == Simd::Auto ? "auto" : "baseline"; }
+
 }  // namespace kestrel

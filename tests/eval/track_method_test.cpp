@@ -30,12 +30,12 @@ TEST(TrackMethod, SaysWhatTheTrackerSays) {
   const BenchMethod method = track_method("paper", options);
   EXPECT_EQ(method.name, "paper");
   BenchTracker tracker = method.learn(textured(0), kBox);
-  const Template model(textured(0), kBox, options.sift, options.match);
-  TrackState state = start_tracking(model, 240, 160);
+  Tracker tracker(textured(0), kBox, options);
+  TrackState state = tracker.start(240, 160);
   for (int k = 0; k < 3; ++k) {
     const Frame frame{k, k / 30.0, textured(4 * k), std::nullopt};
     const BenchAnswer answer = tracker(frame);
-    const Track seen = track(model, frame, state, options);
+    const Track seen = tracker.track(frame, state);
     state = seen.next;
     ASSERT_TRUE(seen.found());
     ASSERT_TRUE(answer.image_from_template);

@@ -224,7 +224,7 @@ cv::Mat blots(int width, int height) {
 
 TEST(LogRow, HoldsTheStep) {
   const cv::Mat picture = blots(200, 160);
-  const Template model(picture, {0, 0, 160, 120}, {}, {});
+  const Template model(picture, {0, 0, 160, 120}, {});
   Frame frame{7, 0.25, picture, Attitude{0.1, 0.2, 0.3}};
   Step step;
   step.track.image_from_template.emplace().H << 1, 0, 5, 0, 2, 7, 0, 0, 1;
@@ -259,7 +259,7 @@ TEST(LogRow, HoldsTheStep) {
 
 TEST(LogRow, OfALostFrameHasNoValues) {
   const cv::Mat picture = blots(200, 160);
-  const Template model(picture, {0, 0, 160, 120}, {}, {});
+  const Template model(picture, {0, 0, 160, 120}, {});
   Step step;
   step.track.miss = Miss::FewMatches;
   const LogRow row = log_row(Frame{}, model, step);

@@ -43,19 +43,20 @@ class StepOfTheLoop : public testing::Test {
   const Task task_ = test::example_task(test::forward_camera());
   const test::WorldFromTarget target_ = test::target_for(task_);
   const cv::Mat picture_ = test::target_picture(100, 80, 1, 0.8);
-  const Template model_{picture_, {0, 0, 100, 80}, task_.track.sift, task_.track.match};
+  Tracker tracker_{picture_, {0, 0, 100, 80}, task_.track};
+  const Template& model_ = tracker_.model();
   // The template was learned elsewhere: where its picture lay tells nothing here, so look
   // everywhere.
   const LoopState everywhere_ = [this] {
-    LoopState state = start(model_, black(0), task_);
+    LoopState state = start(tracker_, black(0));
     state.track.window = {0, 0, 320, 240};
     return state;
   }();
 };
 
 TEST_F(StepOfTheLoop, StartsFromHoverAtTheTemplatesPlace) {
-  const LoopState state = start(model_, black(0), task_);
-  const TrackState track = start_tracking(model_, 320, 240);
+  const LoopState state = start(tracker_, black(0));
+  const TrackState track = tracker_.start(320, 240);
   EXPECT_EQ(state.track.window.width, track.window.width);
   EXPECT_EQ(state.track.window.height, track.window.height);
   EXPECT_FALSE(state.pose);
@@ -87,7 +88,7 @@ TEST_F(StepOfTheLoop, PutsTheFeaturesAtTheEdgesOfTheTarget) {
 
 TEST_F(StepOfTheLoop, SeesTheTargetWhereItIs) {
   const Flight flight{{-0.4, 0.2, 0.1}, {0.1, -0.1, 0.2}};
-  const Step s = step(model_, frame_from(flight, 1), everywhere_, task_);
+  const Step s = step(tracker_, frame_from(flight, 1), everywhere_, task_);
   ASSERT_TRUE(s.track.found());
   ASSERT_TRUE(s.pose);
   const auto expected = features(pose_at(flight), target_corners(task_));
@@ -105,9 +106,9 @@ TEST_F(StepOfTheLoop, SeesTheTargetWhereItIs) {
 // goes in at the next frame.
 TEST_F(StepOfTheLoop, HandsOnWhatItFound) {
   const Flight flight{{-0.4, 0.2, 0.1}, {0.1, -0.1, 0.2}};
-  const Step first = step(model_, frame_from(flight, 1), everywhere_, task_);
+  const Step first = step(tracker_, frame_from(flight, 1), everywhere_, task_);
   const Frame second_frame = frame_from(flight, 2);
-  const Step second = step(model_, second_frame, first.next, task_);
+  const Step second = step(tracker_, second_frame, first.next, task_);
   const Decision expected = decide(second.measured, second_frame.attitude, second_frame.stamp_s,
                                    first.decision.next, task_);
   EXPECT_EQ(second.decision.command.vector(), expected.command.vector());
@@ -126,11 +127,11 @@ TEST_F(StepOfTheLoop, KeepsThePoseAndFadesWhenTheTargetIsGone) {
   const Frame seen = frame_from({{-0.4, 0.2, 0.1}, {}}, 1);
   LoopState state = everywhere_;
   state.decision.stamp_s = 0;
-  state = step(model_, seen, state, task_).next;
+  state = step(tracker_, seen, state, task_).next;
   EXPECT_GT(state.decision.sent.vector().norm(), 0.03);
   const TargetPose pose = *state.pose;
   const auto expect_lost = [&](std::int64_t index, CommandState expected) {
-    const Step s = step(model_, black(index), state, task_);
+    const Step s = step(tracker_, black(index), state, task_);
     EXPECT_FALSE(s.track.found());
     EXPECT_FALSE(s.pose);
     EXPECT_TRUE(s.measured.empty());
@@ -144,7 +145,7 @@ TEST_F(StepOfTheLoop, KeepsThePoseAndFadesWhenTheTargetIsGone) {
   EXPECT_EQ(state.decision.sent.vector(), Vector4d::Zero());
   Frame again = seen;
   again.stamp_s = 41 * kFrame;
-  const Step found = step(model_, again, state, task_);
+  const Step found = step(tracker_, again, state, task_);
   EXPECT_EQ(found.decision.state, CommandState::Servo);
   // The rate of 2 m/s^2 over a frame, no jump.
   EXPECT_LE(found.decision.command.forward_m_s, 2 * kFrame + 1e-12);
@@ -154,14 +155,14 @@ TEST_F(StepOfTheLoop, HoversForFramesThatAreNone) {
   const Frame seen = frame_from({{-0.4, 0, 0}, {}}, 3);
   LoopState state = everywhere_;
   state.decision.stamp_s = 2 * kFrame;
-  state = step(model_, seen, state, task_).next;
+  state = step(tracker_, seen, state, task_).next;
   EXPECT_EQ(state.decision.stamp_s, seen.stamp_s);
   Frame no_image = black(4);
   no_image.gray.release();
-  EXPECT_EQ(step(model_, no_image, state, task_).decision.state, CommandState::Hold);
+  EXPECT_EQ(step(tracker_, no_image, state, task_).decision.state, CommandState::Hold);
   Frame no_stamp = seen;
   no_stamp.stamp_s = kNan;
-  const Step s = step(model_, no_stamp, state, task_);
+  const Step s = step(tracker_, no_stamp, state, task_);
   EXPECT_TRUE(s.track.found());
   EXPECT_EQ(s.decision.state, CommandState::Hover);
   EXPECT_EQ(s.decision.command.vector(), Vector4d::Zero());
@@ -171,8 +172,8 @@ TEST_F(StepOfTheLoop, GivesTheSameBitsTwice) {
   const Frame frame = frame_from({{-0.4, 0.2, 0.1}, {0.1, -0.1, 0.2}}, 1);
   LoopState state = everywhere_;
   state.decision.stamp_s = 0;
-  const Step a = step(model_, frame, state, task_);
-  const Step b = step(model_, frame, state, task_);
+  const Step a = step(tracker_, frame, state, task_);
+  const Step b = step(tracker_, frame, state, task_);
   EXPECT_GT(a.decision.command.vector().norm(), 0);
   EXPECT_EQ(a.decision.command.vector(), b.decision.command.vector());
   EXPECT_EQ(a.pose->camera_from_target.rotation, b.pose->camera_from_target.rotation);
@@ -187,7 +188,7 @@ TEST_F(StepOfTheLoop, BringsTheHelicopterToItsGoal) {
   for (int k = 1; k <= 15; ++k) {
     Frame frame = frame_from(flight, k);
     frame.stamp_s = 0.1 * k;
-    const Step s = step(model_, frame, state, quick);
+    const Step s = step(tracker_, frame, state, quick);
     EXPECT_EQ(s.decision.state, CommandState::Servo) << k;
     flight = flight.after(s.decision.command, 0.1);
     state = s.next;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "kestrel/eval/bench.hpp"
-#include "kestrel/vision/track.hpp"
+#include "kestrel/vision/tracker.hpp"
 
 namespace kestrel {
 

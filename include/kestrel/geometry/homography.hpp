@@ -34,10 +34,10 @@ std::array<Pixel, 4> outline(const Homography& image_from_template, double width
 /// template's pixel (0, 0) goes to infinity.
 std::optional<Homography> fit_homography(const std::vector<PixelPair>& pairs);
 
-/// The homography that takes the corners of a template of this size to these four points, same order
-/// as template_corners(), in closed form (Heckbert 1989, section 2.2.3); allocates nothing. Empty
-/// when three of the points are on a line, one is not finite, or the template's pixel (0, 0) goes to
-/// infinity.
+/// The homography that takes the corners of a template of this size to these four points, same
+/// order as template_corners(), in closed form (Heckbert 1989, section 2.2.3); allocates nothing.
+/// Empty when three of the points are on a line, one is not finite, or the template's pixel (0, 0)
+/// goes to infinity.
 std::optional<Homography> homography_from_outline(const std::array<Pixel, 4>& corners,
                                                   double width_px, double height_px);
 

@@ -22,12 +22,13 @@ struct OverlayOptions {
 
 /// The frame as the paper's figure 4 shows it, 8-bit BGR, as wide as the frame and a status line
 /// higher: the template in the upper-left corner (unscaled, or fitted into a quarter of the frame),
-/// inlier matches joined to it by lines of different colours, the projected outline in white, the
-/// processed window in black with a light edge; current corners in green and, with a goal, desired
-/// ones in red. A template keypoint keeps its colour from frame to frame, and of many matches the
-/// same ones are drawn again. The status line says frame, state, inliers of matches and command, or
-/// LOST and why. Parts that are not finite or outside are left out; a frame that is empty or not
-/// 8-bit grey gives a grey field. template_picture: 8-bit grey, may be empty.
+/// inlier matches joined to it by lines of different colours, the projected outline in white (in
+/// grey where it is only predicted), the processed window in black with a light edge; current
+/// corners in green and, with a goal, desired ones in red. A template keypoint keeps its colour
+/// from frame to frame, and of many matches the same ones are drawn again. The status line says
+/// frame, state, inliers of matches and command, or LOST and why. Parts that are not finite or
+/// outside are left out; a frame that is empty or not 8-bit grey gives a grey field.
+/// template_picture: 8-bit grey, may be empty.
 cv::Mat overlay(const Frame& frame, const cv::Mat& template_picture, const Track& track,
                 const OverlayOptions& options = {});
 

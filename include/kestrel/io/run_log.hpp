@@ -34,25 +34,38 @@ struct LoggedDecision {
   VelocityCommand sent;
 };
 
+/// Covariance of each corner's place in the image, px^2: of u, of u with v, of v.
+using CornerNoise = std::array<std::array<double, 3>, 4>;
+
 /// Everything of one frame. No time of processing is in it: the same task and frames give the same
 /// log, byte for byte.
 struct LogRow {
   std::int64_t frame = 0;
   double stamp_s = 0;
+  TrackStatus status = TrackStatus::Lost;
+  TrackStage stage = TrackStage::None;
   Miss miss = Miss::None;
+  double age_s = 0;        // since the target was found
+  double confidence = 0;   // 0 to 1
+  double alike_share = 0;  // of the template's visible blocks that the image shows
   PixelBox window;
   int keypoints = 0;
   int matches = 0;
   int inliers = 0;
   int trials = 0;
   std::optional<Homography> image_from_template;
-  std::optional<std::array<Pixel, 4>> corners;  // of the template in the image, px
-  std::optional<Attitude> attitude;             // as the source gave it
+  std::optional<std::array<Pixel, 4>> corners;    // of the template in the image, px
+  std::optional<std::array<Pixel, 4>> predicted;  // corners where a target not seen is expected
+  std::optional<CornerNoise> noise;               // of corners, or of predicted ones
+  std::optional<Attitude> attitude;               // as the source gave it
   std::optional<LoggedPose> pose;
   std::optional<LoggedServo> servo;
   std::optional<LoggedDecision> decision;
   std::vector<double> extra;  // one for each extra column of the log; NaN: no value
 };
+
+/// The four corners' own blocks of their covariance.
+CornerNoise corner_noise(const CornerCovariance& covariance);
 
 /// What the tracker saw in a frame: the row of a run without servoing.
 LogRow log_row(const Frame& frame, const Template& model, const Track& track);

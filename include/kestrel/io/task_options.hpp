@@ -5,14 +5,14 @@
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
 #include "kestrel/vehicle/limits.hpp"
-#include "kestrel/vision/track.hpp"
+#include "kestrel/vision/track_options.hpp"
 
 namespace kestrel {
 
 /// The options of each stage from the section of a task file that is named after it; keys that are
 /// absent keep the defaults of the structs. tasks/README.md documents every key. Throws FileError
 /// with the line for an option that its check() refuses.
-TrackOptions read_track_options(const Section& root);     // track: {sift, match, ransac, outline}
+TrackOptions read_track_options(const Section& root);     // track:
 PlanePoseOptions read_pose_options(const Section& root);  // pose:
 ServoOptions read_servo_options(const Section& root);     // servo:
 CommandLimits read_command_limits(const Section& root);   // limits: {speed, acceleration}

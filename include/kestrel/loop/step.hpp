@@ -9,6 +9,7 @@
 #include "kestrel/vision/frame.hpp"
 #include "kestrel/vision/template.hpp"
 #include "kestrel/vision/track.hpp"
+#include "kestrel/vision/tracker.hpp"
 
 namespace kestrel {
 
@@ -35,9 +36,10 @@ std::vector<Feature> corner_features(const Homography& image_from_template, cons
                                      const TargetPose& camera_from_target, const Task& task);
 
 /// State before the first frame.
-LoopState start(const Template& model, const Frame& first, const Task& task);
+LoopState start(const Tracker& tracker, const Frame& first);
 
-/// track -> pose -> features -> decide: the body of the paper's figure 2.
-Step step(const Template& model, const Frame& frame, const LoopState& state, const Task& task);
+/// track -> pose -> features -> decide: the body of the paper's figure 2. The tracker lends its
+/// memory; its options are those it was made with.
+Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task);
 
 }  // namespace kestrel

@@ -9,7 +9,7 @@
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
 #include "kestrel/vehicle/limits.hpp"
-#include "kestrel/vision/track.hpp"
+#include "kestrel/vision/track_options.hpp"
 
 namespace kestrel {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,6 +19,9 @@ enum class TrackStatus {
   Lost,      // not seen
 };
 
+inline constexpr std::array<TrackStatus, 3> kTrackStatuses{
+    TrackStatus::Found, TrackStatus::Coasting, TrackStatus::Lost};
+
 /// Why a frame gave no answer.
 enum class Miss {
   None,          // the target was found
@@ -31,6 +35,10 @@ enum class Miss {
   Ambiguous,     // two places look like the template equally well
 };
 
+inline constexpr std::array<Miss, 9> kMisses{
+    Miss::None,       Miss::NoImage,      Miss::FewKeypoints, Miss::FewMatches, Miss::NoConsensus,
+    Miss::BadOutline, Miss::Undetermined, Miss::NotAlike,     Miss::Ambiguous};
+
 /// What the answer of a frame comes from.
 enum class TrackStage {
   None,      // no answer
@@ -38,6 +46,9 @@ enum class TrackStage {
   Searched,  // the same, after a search of the neighbourhood
   Detected,  // keypoints
 };
+
+inline constexpr std::array<TrackStage, 4> kTrackStages{TrackStage::None, TrackStage::Aligned,
+                                                        TrackStage::Searched, TrackStage::Detected};
 
 /// What the tracker carries from one frame to the next. Values only, of fixed size.
 struct TrackState {

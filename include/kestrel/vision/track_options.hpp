@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "kestrel/geometry/homography.hpp"
 #include "kestrel/vision/align.hpp"
 #include "kestrel/vision/corner_motion.hpp"
@@ -32,6 +34,13 @@ enum class SiftSource {
   Kestrel,  // vision/sift
   OpenCv,   // cv::SIFT, as a reference
 };
+
+inline constexpr std::array<TrackMethod, 3> kTrackMethods{TrackMethod::Paper, TrackMethod::Detect,
+                                                          TrackMethod::Hybrid};
+inline constexpr std::array<WindowPolicy, 3> kWindowPolicies{
+    WindowPolicy::Fixed, WindowPolicy::Doubling, WindowPolicy::Kalman};
+inline constexpr std::array<SiftSource, 2> kSiftSources{SiftSource::Kestrel, SiftSource::OpenCv};
+inline constexpr std::array<Simd, 2> kSimds{Simd::Auto, Simd::Baseline};
 
 /// Parameters of a detection from keypoints.
 struct DetectOptions {
@@ -75,5 +84,7 @@ struct TrackOptions {
 /// One word for a log and a task file: "paper", "detect", "hybrid"; "fixed", ...
 const char* name(TrackMethod method);
 const char* name(WindowPolicy policy);
+const char* name(SiftSource source);  // "kestrel", "opencv"
+const char* name(Simd simd);          // "auto", "baseline"
 
 }  // namespace kestrel
