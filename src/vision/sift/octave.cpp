@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace kestrel::sift {
 namespace {
@@ -53,6 +54,7 @@ void Octave::shape(int width, int height, const Ladder& ladder) {
   candidates_.clear();
   refined_ = 0;
   extrema_.clear();
+  last_in_column_.assign(std::size_t(width), -1);
 }
 
 /// A ring of rows holds what is still to be read: by the next blur or by the search and the
@@ -159,6 +161,24 @@ void Octave::search_row(const Ladder& ladder, int v) {
   }
 }
 
+/// Two candidates may lead to one extremum.
+bool Octave::is_known(const Extremum& extremum) const {
+  const float u = float(extremum.at.u) + extremum.du;
+  const float v = float(extremum.at.v) + extremum.dv;
+  const float layer = float(extremum.at.layer) + extremum.dlayer;
+  for (int column = extremum.at.u - 1; column <= extremum.at.u + 1; ++column) {
+    const int i = last_in_column_[std::size_t(column)];
+    if (i < 0) continue;
+    const Extremum& other = extrema_[std::size_t(i)];
+    constexpr float kSame = 0.3F;
+    if (std::abs(float(other.at.u) + other.du - u) < kSame &&
+        std::abs(float(other.at.v) + other.dv - v) < kSame &&
+        std::abs(float(other.at.layer) + other.dlayer - layer) < kSame)
+      return true;
+  }
+  return false;
+}
+
 /// Candidates whose neighbourhood is there.
 void Octave::refine(const Ladder& ladder, int rows_done) {
   const Levels levels{fixed_.data(), width_, height_, ladder.layers};
@@ -166,7 +186,9 @@ void Octave::refine(const Ladder& ladder, int rows_done) {
     const Candidate& candidate = candidates_[refined_];
     if (candidate.v + kRefineReachPx >= rows_done && rows_done < height_) return;
     const auto extremum = refined(levels, candidate, ladder.wanted);
-    if (extremum) extrema_.push_back(*extremum);
+    if (!extremum || is_known(*extremum)) continue;
+    last_in_column_[std::size_t(extremum->at.u)] = int(extrema_.size());
+    extrema_.push_back(*extremum);
   }
 }
 

@@ -53,6 +53,7 @@ class Octave {
   void search_rows(const Ladder& ladder);
   void search_row(const Ladder& ladder, int v);
   void refine(const Ladder& ladder, int rows_done);
+  bool is_known(const Extremum& extremum) const;
   int ready(const Ladder& ladder, int level) const;
   int& done(int level) { return done_[std::size_t(level + 1)]; }
   int done(int level) const { return done_[std::size_t(level + 1)]; }
@@ -74,6 +75,7 @@ class Octave {
   std::vector<Candidate> candidates_;
   std::size_t refined_ = 0;  // candidates
   std::vector<Extremum> extrema_;
+  std::vector<int> last_in_column_;  // index of the last extremum of a column of pixels, or -1
 };
 
 }  // namespace kestrel::sift

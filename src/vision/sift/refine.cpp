@@ -11,6 +11,10 @@ namespace {
 
 constexpr int kMaxMoves = 5;
 
+/// An offset is small enough, px or layers: more than half, or an extremum in the middle between
+/// two pixels would be sent from one to the other.
+constexpr float kNear = 0.6F;
+
 /// Difference of Gaussians about a pixel: value, gradient and second derivatives.
 struct Quadric {
   float value = 0;
@@ -95,7 +99,7 @@ std::optional<Extremum> refined(const Levels& levels, const Candidate& candidate
     const Quadric q = quadric(levels, c);
     const std::optional<Offset> x = summit(q);
     if (!x) return std::nullopt;
-    if (std::abs(x->u) < 0.5F && std::abs(x->v) < 0.5F && std::abs(x->s) < 0.5F) {
+    if (std::abs(x->u) < kNear && std::abs(x->v) < kNear && std::abs(x->s) < kNear) {
       const float contrast = std::abs(q.value + 0.5F * (q.u * x->u + q.v * x->v + q.s * x->s));
       if (contrast < wanted.contrast || is_edge(q, wanted.edge)) return std::nullopt;
       return Extremum{c, x->u, x->v, x->s, contrast};

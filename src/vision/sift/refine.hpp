@@ -31,7 +31,7 @@ struct Refinement {
 /// An extremum of the differences of Gaussians between the pixels and layers.
 struct Extremum {
   Candidate at;  // nearest pixel and layer
-  float du = 0;  // from there, px of the octave, within half a px
+  float du = 0;  // from there, px of the octave, within 0.6 px
   float dv = 0;
   float dlayer = 0;
   float contrast = 0;  // grey levels, without sign

@@ -1,0 +1,1 @@
+#include "kestrel/vision/feature_match.hpp"

@@ -1,0 +1,1 @@
+#include "kestrel/vision/learned_features.hpp"
