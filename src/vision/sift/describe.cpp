@@ -62,16 +62,31 @@ Histogram histogram(const Octave& octave, const Spot& spot, const kernels::Table
 
 /// With the binomial filter 1 4 6 4 1.
 Histogram smoothed(const Histogram& h) {
-  const auto at = [&h](int b) { return h[std::size_t((b + kOrientations) % kOrientations)]; };
+  std::array<float, kOrientations + 4> around;  // two bins more at each end
+  std::copy(h.begin(), h.end(), around.begin() + 2);
+  std::copy(h.end() - 2, h.end(), around.begin());
+  std::copy(h.begin(), h.begin() + 2, around.end() - 2);
   Histogram result;
-  for (int b = 0; b < kOrientations; ++b) {
-    result[std::size_t(b)] = (at(b - 2) + at(b + 2)) * (1.F / 16) +
-                             (at(b - 1) + at(b + 1)) * (4.F / 16) + at(b) * (6.F / 16);
+  for (std::size_t b = 0; b < kOrientations; ++b) {
+    result[b] = (around[b] + around[b + 4]) * (1.F / 16) +
+                (around[b + 1] + around[b + 3]) * (4.F / 16) + around[b + 2] * (6.F / 16);
   }
   return result;
 }
 
 }  // namespace
+
+void prefetch(const Octave& octave, const Spot& spot) {
+  constexpr int kLine = 32;                               // numbers of 16 bits
+  const int reach = int(8.5F * 3 * 5 / 16 * spot.sigma);  // of the grid when it is not turned
+  const Plane<std::int16_t>& plane = octave.level(spot.layer);
+  const int first = std::max(int(spot.v) - reach, 0);
+  const int last = std::min(int(spot.v) + reach, octave.height() - 1);
+  const int left = std::max(int(spot.u) - reach, 0);
+  const int right = std::min(int(spot.u) + reach, octave.width() - 1);
+  for (int v = first; v <= last; ++v)
+    for (int u = left; u <= right + kLine - 1; u += kLine) __builtin_prefetch(plane.row(v) + u);
+}
 
 Peaks orientations(const Octave& octave, const Spot& spot, const kernels::Table& kernels) {
   constexpr float kRadPerBin = 6.283185307F / kOrientations;
@@ -79,10 +94,11 @@ Peaks orientations(const Octave& octave, const Spot& spot, const kernels::Table&
   const float enough = 0.8F * *std::max_element(h.begin(), h.end());
   Peaks peaks;
   for (int b = 0; b < kOrientations; ++b) {
-    const float before = h[std::size_t((b + kOrientations - 1) % kOrientations)];
     const float at = h[std::size_t(b)];
+    if (at < enough) continue;
+    const float before = h[std::size_t((b + kOrientations - 1) % kOrientations)];
     const float after = h[std::size_t((b + 1) % kOrientations)];
-    if (!(at > before && at > after && at >= enough)) continue;
+    if (!(at > before && at > after)) continue;
     float bin = float(b) + 0.5F * (before - after) / (before - 2 * at + after);
     if (bin < 0) bin += kOrientations;
     if (bin >= kOrientations) bin -= kOrientations;
