@@ -100,10 +100,11 @@ void FastSift::Work::place() {
   for (int o = 0; o < octaves_used; ++o) {
     for (const sift::Extremum& e : octaves[std::size_t(o)].extrema()) {
       const double sigma = sigma_at(options, e.at.layer + double(e.dlayer));
-      places.push_back({o,
-                        {e.at.layer, float(e.at.u) + e.du, float(e.at.v) + e.dv, float(sigma)},
-                        0,
-                        e.contrast});
+      Found place;
+      place.octave = o;
+      place.spot = {e.at.layer, float(e.at.u) + e.du, float(e.at.v) + e.dv, float(sigma)};
+      place.contrast = e.contrast;
+      places.push_back(place);
     }
   }
   strongest.keep(places, options.max_keypoints);
