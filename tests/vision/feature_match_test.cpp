@@ -127,7 +127,9 @@ TEST(FeatureMatch, IsTheExactSearchItPromises) {
       options.simd = simd;
       expect_same(match_features(scene.model, scene.image, options), by_definition(scene, options));
     }
-    if (features > 8) EXPECT_FALSE(by_definition(scene, options).empty());
+    if (features > 8) {
+      EXPECT_FALSE(by_definition(scene, options).empty());
+    }
   }
 }
 

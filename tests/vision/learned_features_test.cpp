@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <opencv2/imgproc.hpp>
@@ -34,7 +35,8 @@ TEST(TemplateViews, LeaveNoTiltOfSixtyDegreesFarFromAView) {
   EXPECT_TRUE(views[0].isApprox(2 * Eigen::Matrix2d::Identity()));
   for (double axis = 0; axis < M_PI; axis += 0.03) {
     const Eigen::Rotation2Dd R(axis);
-    const Eigen::Matrix2d tilt = R * Eigen::Vector2d(0.5, 1).asDiagonal() * R.inverse();
+    const Eigen::Matrix2d tilt = R.toRotationMatrix() * Eigen::Vector2d(0.5, 1).asDiagonal() *
+                                 R.inverse().toRotationMatrix();
     double best = 0;
     for (const Eigen::Matrix2d& view : views) {
       const Eigen::Vector2d s = (tilt * view.inverse()).jacobiSvd().singularValues();
