@@ -63,8 +63,11 @@ TEST(FastSift, FindsABlobWhereItIsAndAsLargeAsItIs) {
         const SiftPoints points = detect(blob(u, v, s), options);
         ASSERT_FALSE(points.at.empty()) << s;
         const SiftPoint found = strongest(points);
-        EXPECT_NEAR(found.u, u, 0.05) << s << is_doubled;
-        EXPECT_NEAR(found.v, v, 0.05) << s << is_doubled;
+        // A parabola through pixels of the octave, up to s px apart, misses by some per cent of
+        // that.
+        const double near = std::max(0.05, 0.02 * s);
+        EXPECT_NEAR(found.u, u, near) << s << is_doubled;
+        EXPECT_NEAR(found.v, v, near) << s << is_doubled;
         EXPECT_NEAR(found.scale_px / (s / std::pow(2, 1. / 6)), 1, 0.06) << s << is_doubled;
       }
     }
@@ -161,7 +164,7 @@ TEST(FastSift, KeepsTheStrongestInTheirOrder) {
 /// Of the keypoints both find, within a px, a fifth of the scale and 0.3 rad: how many of
 /// cv::SIFT's have ours as the nearest of all of ours.
 TEST(FastSift, DescribesAsOpencvDoes) {
-  const cv::Mat picture = test::sift_picture();
+  const cv::Mat picture = test::sift_picture()(cv::Rect(0, 0, 200, 150));
   FastSiftOptions options;
   options.is_doubled = true;
   options.max_keypoints = kMaxSiftPoints;

@@ -11,8 +11,9 @@ namespace {
 using kernels::kOrientations;
 using Histogram = std::array<float, kOrientations>;
 
-/// The image is blurred by sigma: samples up to 0.8 sigma apart miss nothing of its gradients.
-constexpr float kTwoPixelSigma = 2.5F;
+/// The image is blurred by sigma: beyond the half rate of samples sigma apart, pi / sigma, less than
+/// 1 % of it is left, and its gradients may be sampled so.
+constexpr float kTwoPixelSigma = 2;
 
 /// Gaussian over the samples along a side of the neighbourhood.
 struct Window {
