@@ -71,9 +71,9 @@ struct FastSift::Work {
   void describe();
   void report(const cv::Point& origin);
 
+  kernels::DescriptorGrid grid = sift::descriptor_grid();
   FastSiftOptions options;
   sift::Ladder ladder;
-  kernels::DescriptorGrid grid = sift::descriptor_grid();
   std::vector<sift::Octave> octaves;
   int octaves_used = 0;
   std::vector<Found> places;

@@ -41,7 +41,7 @@ NearestSearch::NearestSearch(const LearnedFeatures& model, double same_place_px,
       blocks_((int(model.at.size()) + kModelBlock - 1) / kModelBlock) {
   pack(model.descriptors);
   find_neighbours(model.at, same_place_px);
-  distances_.resize(std::size_t(kQueries * row_size()));
+  distances_.resize(std::size_t(kQueries) * std::size_t(row_size()));
 }
 
 /// Eight descriptors side by side, four bins at a time.

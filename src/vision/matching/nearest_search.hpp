@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,7 +38,7 @@ class NearestSearch {
   void find_neighbours(const std::vector<LearnedFeature>& features, double same_place_px);
   void compare_block(const std::vector<Descriptor>& image, int first);
   Claim nearest(int query, std::int32_t* row) const;
-  std::int32_t* row(int query) { return distances_.data() + query * row_size(); }
+  std::int32_t* row(int query) { return distances_.data() + std::ptrdiff_t(query) * row_size(); }
   int row_size() const { return blocks_ * kernels::kModelBlock; }
 
   const kernels::Table* table_;

@@ -11,8 +11,8 @@ namespace {
 using kernels::kOrientations;
 using Histogram = std::array<float, kOrientations>;
 
-/// The image is blurred by sigma: beyond the half rate of samples sigma apart, pi / sigma, less than
-/// 1 % of it is left, and its gradients may be sampled so.
+/// The image is blurred by sigma: beyond the half rate of samples sigma apart, pi / sigma, less
+/// than 1 % of it is left, and its gradients may be sampled so.
 constexpr float kTwoPixelSigma = 2;
 
 /// Gaussian over the samples along a side of the neighbourhood.
@@ -21,15 +21,15 @@ struct Window {
 };
 
 Window window(float sigma_in_samples, int radius) {
-  constexpr int kCentre = kernels::kMaxOrientationRadius;
+  constexpr std::size_t kCentre = kernels::kMaxOrientationRadius;
   // exp(-(d+1)^2/2s^2) = exp(-d^2/2s^2) q^(2d+1), q = exp(-1/2s^2)
   const float q = float(exponential(-0.5 / (double(sigma_in_samples) * sigma_in_samples)));
   float ratio = q;
   float weight = 1;
   Window result;
-  for (int d = 0; d <= radius; ++d) {
-    result.weight[std::size_t(kCentre - d)] = weight;
-    result.weight[std::size_t(kCentre + d)] = weight;
+  for (std::size_t d = 0; d <= std::size_t(radius); ++d) {
+    result.weight[kCentre - d] = weight;
+    result.weight[kCentre + d] = weight;
     weight *= ratio;
     ratio *= q * q;
   }
@@ -112,12 +112,14 @@ kernels::DescriptorGrid descriptor_grid() {
   constexpr double kCellsPerSample = 5. / 16;
   kernels::DescriptorGrid grid{};
   for (int k = 0; k < kernels::kGridSide * kernels::kGridSide; ++k) {
-    grid.across[k] = float(k % kernels::kGridSide) - 8.5F;
-    grid.down[k] = float(k / kernels::kGridSide) - 8.5F;
+    const int row = k / kernels::kGridSide;
+    grid.across[k] = float(k - row * kernels::kGridSide) - 8.5F;
+    grid.down[k] = float(row) - 8.5F;
   }
   for (int k = 0; k < 256; ++k) {
-    const double across = (k % 16 - 7.5) * kCellsPerSample;
-    const double down = (k / 16 - 7.5) * kCellsPerSample;
+    const int row = k / 16;
+    const double across = (k - 16 * row - 7.5) * kCellsPerSample;
+    const double down = (row - 7.5) * kCellsPerSample;
     grid.window[k] = float(exponential(-(across * across + down * down) / 8));
   }
   return grid;
