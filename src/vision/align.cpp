@@ -92,16 +92,20 @@ struct Normal {
   double residual = 0;  // weighted sum of squared residuals over their variance
   double freedom = 0;   // weighted number of residuals
   int blocks = 0;       // that take part
+  double shown = 0;     // share of the template's texture that the image shows, 0 to 1
 };
 
 Normal normal_equations(const BlockLevel& level, const std::vector<kernel::BlockSums>& sums,
                         const AlignOptions& options, const BlockOptions& noise) {
   Normal n;
+  double all = 0;
   for (std::size_t i = 0; i < level.blocks.size(); ++i) {
     const TemplateBlock& block = level.blocks[i];
+    all += std::sqrt(block.texture_norm2);
     if (sums[i].is_visible == 0) continue;
     const double c = zncc(block, sums[i]);
     if (c <= 0) continue;
+    n.shown += std::sqrt(block.texture_norm2) * std::min(c * c, 1.0);
     const double gain = double(sums[i].texture_image) / block.texture_norm2;
     const double model = noise.model_error * gain;
     const double variance =
@@ -115,6 +119,7 @@ Normal normal_equations(const BlockLevel& level, const std::vector<kernel::Block
     n.freedom += root * root * (kPixels - 2);
     ++n.blocks;
   }
+  if (all > 0) n.shown /= all;
   return n;
 }
 
@@ -196,19 +201,54 @@ struct Aligner::Scratch {
               blocks[std::size_t(at.in_template)].data(), count, sums.data());
   }
 
-  /// The motion of the template that would explain what the image shows; empty when it does not
-  /// determine one.
-  std::optional<Eigen::Matrix3d> step(const TemplateBlocks& all, const AlignOptions& options,
-                                      const ImagePyramid& image, const LevelPair& at,
-                                      const Homography& H) {
+  Normal measured(const TemplateBlocks& all, const AlignOptions& options, const ImagePyramid& image,
+                  const LevelPair& at, const Homography& H) {
     const BlockLevel& level = all.levels[std::size_t(at.in_template)];
     look(sample, image, at, H, int(level.blocks.size()));
-    const Normal n = normal_equations(level, sums, options, all.options);
+    return normal_equations(level, sums, options, all.options);
+  }
+
+  /// The motion of the template that would explain what the image shows; empty when that does not
+  /// determine one.
+  std::optional<Eigen::Matrix3d> step(const Normal& n, const TemplateBlocks& all) const {
     auto parameters = solved(n, n.blocks >= kBlocksForHomography ? 8 : n.blocks >= 2 ? 4 : 2);
     if (!parameters) return std::nullopt;
     const double far = std::max(reach(warp(*parameters), scaled, all), parameters->norm());
     if (far > kLargestStep) *parameters *= kLargestStep / far;
     return warp(*parameters);
+  }
+
+  /// Gauss-Newton steps at one level, at most so many or until one moves no corner by more than the
+  /// tolerance (coordinates of warp()): of the places passed the one that shows most of the
+  /// template. Begins at the start where that shows more than the place a coarser level led to:
+  /// what is fine texture to one level is noise to the next.
+  Homography descended(const TemplateBlocks& all, const AlignOptions& options,
+                       const ImagePyramid& image, const LevelPair& at, const Homography& start,
+                       Homography H, int steps, double tolerance, int& taken) {
+    Normal n = measured(all, options, image, at, H);
+    ++taken;
+    if (H.H != start.H) {
+      const Normal before = measured(all, options, image, at, start);
+      if (before.shown > n.shown) {
+        n = before;
+        H = start;
+      }
+    }
+    Homography best = H;
+    double most = n.shown;
+    for (int i = 0; i < steps; ++i) {
+      const auto W = step(n, all);
+      if (!W) break;
+      H.H = H.H * (from_scaled * W->inverse() * scaled);
+      H.H /= H.H(2, 2);
+      if (reach(*W, scaled, all) < tolerance) return H;
+      n = measured(all, options, image, at, H);
+      ++taken;
+      if (n.shown < most) continue;
+      most = n.shown;
+      best = H;
+    }
+    return best;
   }
 
   Agreement agreement_of(const BlockLevel& level, const AgreementOptions& options) {
@@ -224,8 +264,7 @@ struct Aligner::Scratch {
   void finish(const TemplateBlocks& all, const AlignOptions& options, const ImagePyramid& image,
               const LevelPair& finest, Alignment& result) {
     const BlockLevel& level = all.levels[std::size_t(finest.in_template)];
-    look(sample, image, finest, result.image_from_template, int(level.blocks.size()));
-    const Normal n = normal_equations(level, sums, options, all.options);
+    const Normal n = measured(all, options, image, finest, result.image_from_template);
     result.agreement.fine = agreement_of(level, options.agreement);
     const double per_residual = std::max(n.freedom > 0 ? n.residual / n.freedom : 1, 1e-6);
     const Matrix8d J = corner_derivatives(result.image_from_template, scaled, all);
@@ -330,14 +369,8 @@ std::optional<Alignment> Aligner::align(const ImagePyramid& image, const Homogra
     const int iterations = k == 0 ? options_.max_iterations : (options_.max_iterations + 1) / 2;
     // A coarse level need only lead into the range of the next: half a pixel of its own.
     const double tolerance = (k == 0 ? options_.tolerance_px : 0.5 * double(1 << k)) / px;
-    for (int i = 0; i < iterations; ++i) {
-      ++result.iterations;
-      const auto W = scratch_->step(blocks_, options_, image, at, H);
-      if (!W) break;
-      H.H = H.H * (scratch_->from_scaled * W->inverse() * scratch_->scaled);
-      H.H /= H.H(2, 2);
-      if (reach(*W, scratch_->scaled, blocks_) < tolerance) break;
-    }
+    H = scratch_->descended(blocks_, options_, image, at, start, H, iterations, tolerance,
+                            result.iterations);
   }
   if (!is_plausible(H, blocks_.width, blocks_.height)) return std::nullopt;
   scratch_->finish(blocks_, options_, image, finest, result);

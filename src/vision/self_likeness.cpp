@@ -26,44 +26,69 @@ Homography moved(const TemplateBlocks& b, int quarters, double du, double dv) {
   return {H};
 }
 
-bool is_elsewhere(const Homography& H, const TemplateBlocks& b) {
-  const auto at = outline(H, b.width, b.height);
-  const auto home = template_corners(b.width, b.height);
+struct Place {
+  Homography where;
+  double share = 0;
+};
+
+double apart(const Homography& a, const Homography& b, const TemplateBlocks& blocks) {
+  const auto at = outline(a, blocks.width, blocks.height);
+  const auto to = outline(b, blocks.width, blocks.height);
   double farthest = 0;
-  for (std::size_t i = 0; i < 4; ++i) farthest = std::max(farthest, distance(at[i], home[i]));
-  return farthest > kSamePlaceShare * std::max(b.width, b.height);
+  for (std::size_t i = 0; i < 4; ++i) farthest = std::max(farthest, distance(at[i], to[i]));
+  return farthest;
+}
+
+/// The most alike of the places, those that are the same once.
+SelfLikeness distinct(std::vector<Place> places, const TemplateBlocks& blocks) {
+  const double near = kSamePlaceShare * std::max(blocks.width, blocks.height);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.share > b.share; });
+  SelfLikeness result;
+  for (const Place& place : places) {
+    const bool is_new = std::all_of(
+        result.places.begin(), result.places.end(),
+        [&](const Homography& known) { return apart(known, place.where, blocks) > near; });
+    if (is_new && result.places.size() < SelfLikeness::kMaxPlaces) {
+      result.places.push_back(place.where);
+    }
+  }
+  if (!places.empty()) result.share = places.front().share;
+  return result;
 }
 
 }  // namespace
 
-double self_likeness(const cv::Mat& picture, const TemplateBlocks& blocks,
-                     const AlignOptions& options) {
+SelfLikeness self_likeness(const cv::Mat& picture, const TemplateBlocks& blocks,
+                           const AlignOptions& options) {
   Aligner aligner(blocks, options);
   ImagePyramid pyramid;
   pyramid.look(picture, {0, 0, blocks.width, blocks.height}, aligner.levels(), options.simd);
-  double most = 0;
+  std::vector<Place> places;
   for (int quarters = 0; quarters < 4; ++quarters) {
     for (int j = -kEighths; j <= kEighths; ++j) {
       for (int i = -kEighths; i <= kEighths; ++i) {
         if (quarters == 0 && i == 0 && j == 0) continue;
         const auto found = aligner.align(
             pyramid, moved(blocks, quarters, i * blocks.width / 8, j * blocks.height / 8));
-        if (!found || !found->is_accepted || !is_elsewhere(found->image_from_template, blocks)) {
+        if (!found || !found->is_accepted) continue;
+        if (apart(found->image_from_template, Homography(), blocks) <=
+            kSamePlaceShare * std::max(blocks.width, blocks.height)) {
           continue;
         }
-        most =
-            std::max(most, found->agreement.alike_share() * found->agreement.fine.visible_share());
+        places.push_back({found->image_from_template,
+                          found->agreement.alike_share() * found->agreement.fine.visible_share()});
       }
     }
   }
-  return most;
+  return distinct(std::move(places), blocks);
 }
 
-AgreementOptions beyond_self_likeness(AgreementOptions options, double self_likeness) {
-  if (self_likeness > 0) {
-    options.min_alike_share = std::max(options.min_alike_share, (1 + self_likeness) / 2);
-  }
+AgreementOptions beyond_self_likeness(AgreementOptions options, double share) {
+  if (share > 0) options.min_alike_share = std::max(options.min_alike_share, 0.25 + share / 2);
   return options;
 }
+
+double sure_share(double self_likeness_share) { return (1 + self_likeness_share) / 2; }
 
 }  // namespace kestrel

@@ -41,12 +41,13 @@ sift::Ladder ladder_of(const FastSiftOptions& options) {
   return ladder;
 }
 
-/// A keypoint before it is described.
+/// An extremum, then one of its keypoints.
 struct Found {
   int octave = 0;
   sift::Spot spot;
-  float angle_rad = 0;
   float contrast = 0;
+  float angle_rad = 0;
+  Descriptor descriptor;
 };
 
 }  // namespace
@@ -67,12 +68,12 @@ struct FastSift::Work {
 
   void build(const sift::Picture& picture);
   void place();
-  void orient();
-  void describe(const cv::Point& origin);
+  void describe();
+  void report(const cv::Point& origin);
 
+  kernels::DescriptorGrid grid = sift::descriptor_grid();
   FastSiftOptions options;
   sift::Ladder ladder;
-  kernels::DescriptorGrid grid = sift::descriptor_grid();
   std::vector<sift::Octave> octaves;
   int octaves_used = 0;
   std::vector<Found> places;
@@ -99,37 +100,42 @@ void FastSift::Work::place() {
   for (int o = 0; o < octaves_used; ++o) {
     for (const sift::Extremum& e : octaves[std::size_t(o)].extrema()) {
       const double sigma = sigma_at(options, e.at.layer + double(e.dlayer));
-      places.push_back({o,
-                        {e.at.layer, float(e.at.u) + e.du, float(e.at.v) + e.dv, float(sigma)},
-                        0,
-                        e.contrast});
+      Found place;
+      place.octave = o;
+      place.spot = {e.at.layer, float(e.at.u) + e.du, float(e.at.v) + e.dv, float(sigma)};
+      place.contrast = e.contrast;
+      places.push_back(place);
     }
   }
   strongest.keep(places, options.max_keypoints);
 }
 
-void FastSift::Work::orient() {
+/// Orientation and description follow each other while the neighbourhood is in the cache.
+void FastSift::Work::describe() {
   found.clear();
-  for (const Found& place : places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Found& place = places[i];
     const sift::Octave& octave = octaves[std::size_t(place.octave)];
+    if (i + 1 < places.size())
+      sift::prefetch(octaves[std::size_t(places[i + 1].octave)], places[i + 1].spot);
     const sift::Peaks peaks = sift::orientations(octave, place.spot, *ladder.kernels);
     for (int k = 0; k < peaks.count; ++k) {
-      found.push_back(place);
-      found.back().angle_rad = peaks.angle[std::size_t(k)];
+      const float angle = peaks.angle[std::size_t(k)];
+      found.push_back({place.octave, place.spot, place.contrast, angle,
+                       sift::described(octave, place.spot, angle, grid, *ladder.kernels)});
     }
   }
   strongest.keep(found, options.max_keypoints);
 }
 
-void FastSift::Work::describe(const cv::Point& origin) {
+void FastSift::Work::report(const cv::Point& origin) {
   points.at.clear();
   points.descriptors.clear();
   for (const Found& f : found) {
     const float pixel = std::ldexp(options.is_doubled ? 0.5F : 1.F, f.octave);
     points.at.push_back({float(origin.x) + f.spot.u * pixel, float(origin.y) + f.spot.v * pixel,
                          f.spot.sigma * pixel, f.angle_rad, f.contrast / 255});
-    points.descriptors.push_back(sift::described(octaves[std::size_t(f.octave)], f.spot,
-                                                 f.angle_rad, grid, *ladder.kernels));
+    points.descriptors.push_back(f.descriptor);
   }
 }
 
@@ -148,8 +154,8 @@ const SiftPoints& FastSift::detect(const cv::Mat& gray, const PixelBox& window) 
   const cv::Rect crop(int(box.u), int(box.v), int(box.width), int(box.height));
   work_->build({crop.empty() ? cv::Mat() : gray(crop), work_->options.is_doubled});
   work_->place();
-  work_->orient();
-  work_->describe(crop.tl());
+  work_->describe();
+  work_->report(crop.tl());
   return work_->points;
 }
 

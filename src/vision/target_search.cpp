@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "kestrel/vision/self_likeness.hpp"
+#include <Eigen/LU>
 
 namespace kestrel {
 namespace {
@@ -22,11 +22,16 @@ constexpr double kRivalShare = 0.8;
 /// Standard deviations within which a place is the expected one.
 constexpr double kGate = 3;
 
-AlignOptions align_options(const Template& model, const TrackOptions& options) {
+AlignOptions align_options(const TrackOptions& options) {
   AlignOptions align = options.align;
   align.simd = options.simd;
-  align.agreement =
-      beyond_self_likeness(align.agreement, self_likeness(model.picture(), model.blocks(), align));
+  return align;
+}
+
+/// The same for a template that is like itself.
+AlignOptions align_options(const TrackOptions& options, double self_likeness_share) {
+  AlignOptions align = align_options(options);
+  align.agreement = beyond_self_likeness(align.agreement, self_likeness_share);
   return align;
 }
 
@@ -58,6 +63,11 @@ double apart(const Homography& a, const Homography& b, const Template& model) {
   return sum / 4;
 }
 
+bool is_same(const Homography& a, const Homography& b, const Template& model) {
+  const PixelBox box = box_of(a, model);
+  return apart(a, b, model) <= kSamePlaceShare * std::max(box.width, box.height);
+}
+
 bool is_better(const Alignment& a, const Alignment& b) {
   return a.is_accepted != b.is_accepted ? a.is_accepted : a.agreement.shown() > b.agreement.shown();
 }
@@ -67,7 +77,8 @@ bool is_better(const Alignment& a, const Alignment& b) {
 TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
     : model_(model),
       options_(options),
-      aligner_(model.blocks(), align_options(model, options)),
+      self_(self_likeness(model.picture(), model.blocks(), align_options(options))),
+      aligner_(model.blocks(), align_options(options, self_.share)),
       detector_(model, options) {}
 
 void TargetSearch::look(const Frame& frame, const PixelBox& window) {
@@ -102,7 +113,35 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const 
     }
   }
   if (result.at && is_possible(*result.at)) result.miss = Miss::None;
+  settle(frame, result);
   return result;
+}
+
+/// A place that shows so little of the template that it may be one where the template is like
+/// itself is held against those places: the best of them all is taken, and none when two are as
+/// good.
+void TargetSearch::settle(const Frame& frame, Sighting& sighting) {
+  if (!sighting.is_accepted() || self_.places.empty()) return;
+  if (sighting.at->agreement.alike_share() >= sure_share(self_.share)) return;
+  look(frame, {0, 0, double(frame.gray.cols), double(frame.gray.rows)});
+  const Homography found = sighting.at->image_from_template;
+  std::optional<Alignment> second;
+  for (const Homography& place : self_.places) {
+    for (const Eigen::Matrix3d& way :
+         {Eigen::Matrix3d(place.H), Eigen::Matrix3d(place.H.inverse())}) {
+      const auto rival = aligner_.align(pyramid_, Homography{found.H * way});
+      if (!rival || !is_possible(*rival)) continue;
+      if (is_same(rival->image_from_template, sighting.at->image_from_template, model_)) continue;
+      const bool better = is_better(*rival, *sighting.at);
+      const Alignment& worse = better ? *sighting.at : *rival;
+      if (!second || is_better(worse, *second)) second = worse;
+      if (better) sighting.at = rival;
+    }
+  }
+  const bool is_tie =
+      second && second->agreement.shown() > kRivalShare * sighting.at->agreement.shown() &&
+      !is_same(second->image_from_template, sighting.at->image_from_template, model_);
+  if (is_tie) sighting.miss = Miss::Ambiguous;
 }
 
 Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
@@ -126,6 +165,7 @@ Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
   }
   std::stable_sort(places.begin(), places.end(), is_better);
   choose(places, expected, result);
+  settle(frame, result);
   if (!result.is_accepted()) return result;
   for (const int i : seen.hypotheses.front().inliers) {
     const AffinePair& pair = seen.pairs[std::size_t(i)];
@@ -142,13 +182,11 @@ void TargetSearch::choose(const std::vector<Alignment>& places,
   if (!is_possible(places.front())) return;
   sighting.miss = Miss::None;
   const Homography& best = places.front().image_from_template;
-  const PixelBox box = box_of(best, model_);
-  const double near = kSamePlaceShare * std::max(box.width, box.height);
   for (const Alignment& rival : places) {
     const bool is_rival =
         is_possible(rival) &&
         rival.agreement.shown() > kRivalShare * places.front().agreement.shown() &&
-        apart(rival.image_from_template, best, model_) > near;
+        !is_same(rival.image_from_template, best, model_);
     if (!is_rival) continue;
     if (!expected) {
       sighting.miss = Miss::Ambiguous;

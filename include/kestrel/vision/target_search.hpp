@@ -7,6 +7,7 @@
 #include "kestrel/vision/detector.hpp"
 #include "kestrel/vision/frame.hpp"
 #include "kestrel/vision/image_pyramid.hpp"
+#include "kestrel/vision/self_likeness.hpp"
 #include "kestrel/vision/template.hpp"
 #include "kestrel/vision/track.hpp"
 #include "kestrel/vision/track_options.hpp"
@@ -57,8 +58,11 @@ class TargetSearch {
   void choose(const std::vector<Alignment>& places, const std::optional<Expectation>& expected,
               Sighting& sighting) const;
 
+  void settle(const Frame& frame, Sighting& sighting);
+
   const Template& model_;
   TrackOptions options_;
+  SelfLikeness self_;
   Aligner aligner_;
   Detector detector_;
   ImagePyramid pyramid_;

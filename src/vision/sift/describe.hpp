@@ -17,6 +17,9 @@ struct Spot {
   float sigma = 0;  // px of the octave
 };
 
+/// Asks for the neighbourhood of a spot that will be looked at soon.
+void prefetch(const Octave& octave, const Spot& spot);
+
 /// Dominant orientations of a neighbourhood, rad from u towards v in [0, 2 pi).
 struct Peaks {
   std::array<float, kernels::kOrientations / 2> angle{};

@@ -39,7 +39,7 @@ struct Direction {
 /// Direction of an angle in [0, 2 pi], rad, within 1e-14.
 inline Direction direction(double angle_rad) {
   constexpr double kQuarter = 1.5707963267948966;
-  const int quarter = int(angle_rad / kQuarter + 0.5);
+  const int quarter = int(std::floor(angle_rad / kQuarter + 0.5));
   const double r = angle_rad - quarter * kQuarter;
   const double s = -r * r;
   double cosine = 0;

@@ -16,11 +16,12 @@ int reach(const GaussianTaps& blur) { return blur.radius * blur.step; }
 
 /// Twice as wide: even pixels are those of the row, odd ones between their neighbours.
 void double_row(const float* in, int width, float* out) {
-  for (int x = 0; x + 1 < width; ++x) {
+  for (std::ptrdiff_t x = 0; x + 1 < width; ++x) {
     out[2 * x] = in[x];
     out[2 * x + 1] = 0.5F * (in[x] + in[x + 1]);
   }
-  out[2 * width - 2] = out[2 * width - 1] = in[width - 1];
+  const std::ptrdiff_t end = 2 * std::ptrdiff_t(width);
+  out[end - 2] = out[end - 1] = in[width - 1];
 }
 
 void fill_row(const Picture& picture, const kernels::Table& kernels, int v, float* scratch,
@@ -47,7 +48,7 @@ void Octave::shape(int width, int height, const Ladder& ladder) {
     if (storage.size() < size) storage.resize(size);
   };
   at_least(scratch_, kBandRows * stride);
-  at_least(extremes_, 3 * count * stride + 2 * kRowBlock);
+  at_least(extremes_, 3 * count * stride + 2 * std::size_t(kRowBlock));
   at_least(found_, count * stride);
   done_.assign(count + 1, 0);
   searched_ = 0;
@@ -67,7 +68,7 @@ void Octave::shape_planes(const Ladder& ladder) {
   int lead = 2 * kBandRows + 2 * kRefineReachPx + 2;
   for (int i = count - 1; i >= 0; --i) {
     const bool is_kept = i >= 1 && i <= ladder.layers;
-    const int ahead = i + 1 < count ? reach(ladder.blurs[std::size_t(i + 1)]) : 0;
+    const int ahead = i + 1 < count ? reach(ladder.blurs[std::size_t(i) + 1]) : 0;
     lead += ahead;
     levels_[std::size_t(i)].shape(height_, 2 * ahead + 2 * kBandRows, stride_);
     fixed_[std::size_t(i)].shape(height_, is_kept ? height_ : lead, stride_);
@@ -145,11 +146,11 @@ void Octave::search_rows(const Ladder& ladder) {
 
 void Octave::search_row(const Ladder& ladder, int v) {
   if (v < kBorderPx || v >= height_ - kBorderPx || width_ <= 2 * kBorderPx) return;
-  std::array<const std::int16_t*, 3 * kernels::kMaxLevels> rows{};
+  std::array<const std::int16_t*, 3 * std::size_t(kernels::kMaxLevels)> rows{};
   const int count = int(fixed_.size());
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < 3; ++k)
-      rows[std::size_t(3 * i + k)] = fixed_[std::size_t(i)].row(v - 1 + k);
+      rows[3 * std::size_t(i) + std::size_t(k)] = fixed_[std::size_t(i)].row(v - 1 + k);
   }
   const int threshold = int(0.5 * ladder.wanted.contrast * double(kernels::kFixedScale));
   const int found =

@@ -55,10 +55,10 @@ class Octave {
   void refine(const Ladder& ladder, int rows_done);
   bool is_known(const Extremum& extremum) const;
   int ready(const Ladder& ladder, int level) const;
-  int& done(int level) { return done_[std::size_t(level + 1)]; }
-  int done(int level) const { return done_[std::size_t(level + 1)]; }
+  int& done(int level) { return done_[std::size_t(level) + 1]; }
+  int done(int level) const { return done_[std::size_t(level) + 1]; }
   const Plane<float>& before(int level) const {
-    return level == 0 ? source_ : levels_[std::size_t(level - 1)];
+    return level == 0 ? source_ : levels_[std::size_t(level) - 1];
   }
 
   int width_ = 0;

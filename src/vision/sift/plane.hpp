@@ -27,15 +27,15 @@ class Plane {
     stride_ = stride;
     const std::size_t size = std::size_t(kept) * std::size_t(stride) + kTail + kAlignment;
     if (storage_.size() < size) storage_.resize(size);
-    rows_.resize(std::size_t(height) + 2 * kBeyond);
+    rows_.resize(std::size_t(height) + 2 * std::size_t(kBeyond));
     Element* const first = aligned();
     for (int v = -kBeyond; v < height + kBeyond; ++v)
-      rows_[std::size_t(v + kBeyond)] = first + std::ptrdiff_t(mirrored(v, height) % kept) * stride;
+      rows_[index(v)] = first + std::ptrdiff_t(mirrored(v, height) % kept) * stride;
   }
 
   /// -kBeyond <= v < height + kBeyond; mirrored beyond the image.
-  Element* row(int v) const { return rows_[std::size_t(v + kBeyond)]; }
-  Element* const* rows(int v) const { return &rows_[std::size_t(v + kBeyond)]; }
+  Element* row(int v) const { return rows_[index(v)]; }
+  Element* const* rows(int v) const { return &rows_[index(v)]; }
   int stride() const { return stride_; }
 
   static constexpr int kBeyond = 32;
@@ -43,6 +43,8 @@ class Plane {
  private:
   static constexpr std::size_t kTail = 64;       // a kernel may read so far past the last row
   static constexpr std::size_t kAlignment = 64;  // bytes, and elements to spare
+
+  static std::size_t index(int v) { return std::size_t(std::ptrdiff_t(v) + kBeyond); }
 
   Element* aligned() {
     void* at = storage_.data();
