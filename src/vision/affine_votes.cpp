@@ -86,13 +86,13 @@ TurnBounds AffineVotes::bounds(float a, float b) const {
 AffineVotes::Prediction AffineVotes::prediction(std::size_t voter) const {
   const auto at = columns_.row(Eigen::Index(voter));
   Prediction p{};
-  p.bounds = bounds(at[kA], at[kB]);
-  p.xu = at[kXu], p.xv = at[kXv], p.yu = at[kYu], p.yv = at[kYv];
-  p.at_x = at[kTemplateU], p.at_y = at[kTemplateV];
-  p.u0 = at[kImageU] - (p.xu * p.at_x + p.xv * p.at_y);
-  p.v0 = at[kImageV] - (p.yu * p.at_x + p.yv * p.at_y);
+  p.bounds = bounds(at[TurnA], at[TurnB]);
+  p.xu = at[MapXu], p.xv = at[MapXv], p.yu = at[MapYu], p.yv = at[MapYv];
+  p.at_x = at[TemplateU], p.at_y = at[TemplateV];
+  p.u0 = at[ImageU] - (p.xu * p.at_x + p.xv * p.at_y);
+  p.v0 = at[ImageV] - (p.yu * p.at_x + p.yv * p.at_y);
   p.squared_px = limits_.squared_px;
-  p.squared_share = limits_.squared_share * (at[kA] * at[kA] + at[kB] * at[kB]);
+  p.squared_share = limits_.squared_share * (at[TurnA] * at[TurnA] + at[TurnB] * at[TurnB]);
   p.squared_same_place = limits_.squared_same_place;
   return p;
 }
@@ -103,12 +103,12 @@ template <class Left>
 std::vector<int> AffineVotes::kept(Left left) const {
   const Eigen::Index n = columns_.rows();
   Eigen::ArrayXf all(n);
-  const float* x = columns_.col(kTemplateU).data();
-  const float* y = columns_.col(kTemplateV).data();
-  const float* u = columns_.col(kImageU).data();
-  const float* v = columns_.col(kImageV).data();
-  const float* a = columns_.col(kA).data();
-  const float* b = columns_.col(kB).data();
+  const float* x = columns_.col(TemplateU).data();
+  const float* y = columns_.col(TemplateV).data();
+  const float* u = columns_.col(ImageU).data();
+  const float* v = columns_.col(ImageV).data();
+  const float* a = columns_.col(TurnA).data();
+  const float* b = columns_.col(TurnB).data();
   float* out = all.data();
   for (Eigen::Index i = 0; i < n; ++i) out[i] = left(x[i], y[i], u[i], v[i], a[i], b[i]);
   std::vector<int> found(std::size_t(n) + 1);
@@ -124,12 +124,12 @@ std::vector<int> AffineVotes::kept(Left left) const {
 int AffineVotes::count(std::size_t voter) const {
   if (!is_usable(voter)) return 0;
   const Prediction p = prediction(voter);
-  const float* x = columns_.col(kTemplateU).data();
-  const float* y = columns_.col(kTemplateV).data();
-  const float* u = columns_.col(kImageU).data();
-  const float* v = columns_.col(kImageV).data();
-  const float* a = columns_.col(kA).data();
-  const float* b = columns_.col(kB).data();
+  const float* x = columns_.col(TemplateU).data();
+  const float* y = columns_.col(TemplateV).data();
+  const float* u = columns_.col(ImageU).data();
+  const float* v = columns_.col(ImageV).data();
+  const float* a = columns_.col(TurnA).data();
+  const float* b = columns_.col(TurnB).data();
   const Eigen::Index n = columns_.rows();
   int agreeing = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -149,9 +149,10 @@ std::vector<int> AffineVotes::supporters(std::size_t voter) const {
 double AffineVotes::squared_tolerance_px2(std::size_t voter, std::size_t pair) const {
   const auto from = columns_.row(Eigen::Index(voter));
   const auto to = columns_.row(Eigen::Index(pair));
-  const float dx = to[kTemplateU] - from[kTemplateU];
-  const float dy = to[kTemplateV] - from[kTemplateV];
-  const float share = limits_.squared_share * (from[kA] * from[kA] + from[kB] * from[kB]);
+  const float dx = to[TemplateU] - from[TemplateU];
+  const float dy = to[TemplateV] - from[TemplateV];
+  const float share =
+      limits_.squared_share * (from[TurnA] * from[TurnA] + from[TurnB] * from[TurnB]);
   return double(limits_.squared_px + share * (dx * dx + dy * dy));
 }
 

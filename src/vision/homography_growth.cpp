@@ -173,8 +173,9 @@ std::optional<GrownHomography> HomographyGrowth::grown(std::size_t voter) const 
   if (!model || !is_possible(*model)) return std::nullopt;
   chosen = open_of(near(*model, kReach * noise_px));
   if (int(chosen.size()) < options_.min_inliers) return std::nullopt;
-  for (; noise_px > options_.max_reprojection_px / 2; noise_px /= 2) {
+  while (noise_px > options_.max_reprojection_px / 2) {
     model = stepped(*model, chosen, noise_px);
+    noise_px /= 2;
     if (!model || !is_possible(*model)) return std::nullopt;
   }
   auto result = settled(*model);

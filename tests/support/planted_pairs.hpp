@@ -98,6 +98,7 @@ inline AffinePair planted_outlier(const PlantedOptions& o, Random& random) {
 inline std::vector<AffinePair> planted(const Homography& H, const PlantedOptions& o,
                                        Random& random) {
   std::vector<AffinePair> pairs;
+  pairs.reserve(std::size_t(o.inliers + o.outliers));
   for (int i = 0; i < o.inliers; ++i) pairs.push_back(planted_inlier(H, o, random));
   for (int i = 0; i < o.outliers; ++i) pairs.push_back(planted_outlier(o, random));
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -87,6 +87,47 @@ TEST(HomographyGrowth, GrowsWithoutWhatIsClosed) {
   for (std::size_t i = 0; i < 30; ++i) EXPECT_FALSE(growth.grown(i));
 }
 
+TEST(HomographyGrowth, GrowsIntoTheCopyThatTheVoterBelongsTo) {
+  test::Random random("copies");
+  int own = 0;
+  for (int i = 0; i < 5; ++i) {
+    auto o = planted_options(25, 0);
+    o.log_scale_sigma = o.angle_sigma = 0.03;  // near enough to tell the copies, 60 px apart
+    const Homography H = test::planted_view(0.3, o, random);
+    const Homography copy = test::product(test::translation(50, 33), H);
+    auto pairs = test::planted(H, o, random);
+    const auto more = test::planted(copy, o, random);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    const AffineVotes votes(pairs, {});
+    const HomographyGrowth growth(pairs, votes, kWidth, kHeight, {});
+    for (std::size_t voter = 0; voter < 50; ++voter) {
+      const auto grown = growth.grown(voter);
+      own += grown && corner_error_px(*grown, voter < 25 ? H : copy) < 5 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(own, 225);  // of 250
+}
+
+TEST(HomographyGrowth, IsNeverAMirrorImage) {
+  // So near to a line that the votes' tolerance cannot see it, the places alone are mirrored.
+  test::Random random("mirror");
+  std::vector<AffinePair> pairs(40);
+  for (AffinePair& pair : pairs) {
+    const double y = random.uniform(-3, 3);
+    pair.in_template = {random.uniform(0, kWidth - 1), 60 + y};
+    pair.in_image = {pair.in_template.u + 200, 160 - y};
+  }
+  const AffineVotes votes(pairs, {});
+  const HomographyGrowth growth(pairs, votes, kWidth, kHeight, {});
+  for (std::size_t voter = 0; voter < 40; ++voter) {
+    const auto grown = growth.grown(voter);
+    if (!grown) continue;
+    EXPECT_GT(signed_area(
+                  outline(*uncentred(grown->image_from_scaled, kWidth, kHeight), kWidth, kHeight)),
+              0);
+  }
+}
+
 TEST(HomographyGrowth, NeedsItsInliers) {
   test::Random random("few");
   const auto o = planted_options(5, 0);

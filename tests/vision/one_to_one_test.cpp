@@ -49,6 +49,7 @@ TEST(OneToOne, LeavesNoTwoAtOnePlaceInAnyOrder) {
 
 TEST(OneToOne, LeavesOneOfThousandsAtOnePlace) {
   std::vector<Witness> all;
+  all.reserve(20000);
   for (int i = 0; i < 20000; ++i) all.push_back({{{5, 5}, {7, 7}}, 20000.0 - i, i});
   EXPECT_EQ(one_to_one(all, 1), std::vector<int>{19999});
 }

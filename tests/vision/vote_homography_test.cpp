@@ -125,6 +125,18 @@ TEST(VoteHomographies, AreTheSameForAnyOrderOfPairs) {
   }
 }
 
+TEST(VoteHomographies, AskTheMostDistinctivePairsFirst) {
+  test::Random random("distinctive");
+  VoteOptions options;
+  options.max_voters = 10;
+  const auto o = planted_options(20, 150);
+  auto pairs = test::planted(test::planted_view(0.3, o, random), o, random);
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].ratio = i < 20 ? 0.6F : 0.9F;
+  EXPECT_FALSE(vote_homographies(pairs, kWidth, kHeight, options).empty());
+  for (AffinePair& pair : pairs) pair.ratio = 1.5F - pair.ratio;
+  EXPECT_TRUE(vote_homographies(pairs, kWidth, kHeight, options).empty());
+}
+
 TEST(VoteHomographies, AreNoneForPureChance) {
   test::Random random("chance");
   int answers = 0;

@@ -53,7 +53,7 @@ class AffineVotes {
   std::vector<int> supporters(std::size_t voter) const;
 
   /// True for a finite pair that keeps the orientation.
-  bool is_usable(std::size_t pair) const { return columns_(Eigen::Index(pair), kUsable) > 0; }
+  bool is_usable(std::size_t pair) const { return columns_(Eigen::Index(pair), Usable) > 0; }
 
   /// How far off the prediction of one pair another pair may be, px^2.
   double squared_tolerance_px2(std::size_t voter, std::size_t pair) const;
@@ -67,8 +67,20 @@ class AffineVotes {
   std::vector<int> near(const Eigen::Matrix3d& H, const TurnBounds& bounds, double reach_px) const;
 
  private:
-  enum Column { kTemplateU, kTemplateV, kImageU, kImageV, kA, kB, kXu, kXv, kYu, kYv, kUsable };
-  static constexpr int kColumns = kUsable + 1;
+  enum Column {
+    TemplateU,
+    TemplateV,
+    ImageU,
+    ImageV,
+    TurnA,
+    TurnB,
+    MapXu,
+    MapXv,
+    MapYu,
+    MapYv,
+    Usable
+  };
+  static constexpr int kColumns = Usable + 1;
   struct Prediction;
   struct Limits {
     explicit Limits(const AffineVoteOptions& options);
