@@ -77,9 +77,7 @@ struct Section::Value {
 
 Section::Section(std::shared_ptr<Document> document, std::size_t record)
     : document_(std::move(document)), record_(record) {}
-
 Section Section::load(const std::filesystem::path& file) { return parse(file, read_text(file)); }
-
 Section Section::parse(const std::filesystem::path& name, const std::string& text) {
   const auto document = std::make_shared<Document>();
   document->file = name;
@@ -112,7 +110,6 @@ bool Section::has(const std::string& key) const {
 }
 
 double Section::number(const std::string& k) const { return value(k).parsed(parse_number); }
-
 std::int64_t Section::integer(const std::string& k) const { return value(k).parsed(parse_integer); }
 
 int Section::whole(const std::string& key, int otherwise) const {

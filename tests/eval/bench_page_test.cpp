@@ -60,6 +60,13 @@ TEST_F(Page, ShowsTheWorstFramesOfTheHardSequence) {
   EXPECT_TRUE(report.sections[4].pictures.empty());  // without labels nothing is the worst
 }
 
+TEST_F(Page, ThePrecisionCurveIsInPercent) {
+  // The better method has all frames of one sequence and half of the other: 75 at the right end.
+  const std::string plot = bench_report(plan_, evaluation_, "").sections[0].figures[0];
+  EXPECT_THAT(plot, HasSubstr(">60</text>"));
+  EXPECT_THAT(plot, Not(HasSubstr(">100</text>")));
+}
+
 TEST_F(Page, SaysWhatIsMissing) {
   evaluation_.planned = 20;
   evaluation_.runs[0].skipped = {"frame 3: no picture"};

@@ -58,6 +58,7 @@ TEST_F(Store, GivesBackWhatItKeepsToTheLastBit) {
   EXPECT_EQ(back->template_px.width, run.template_px.width);
   EXPECT_EQ(back->skipped.size(), 2u);
   EXPECT_EQ(back->skipped[0], run.skipped[0]);
+  EXPECT_NEAR(back->learn_s, run.learn_s, 1e-12);
   ASSERT_EQ(back->frames.size(), run.frames.size());
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const BenchFrame& a = run.frames[i];
@@ -105,6 +106,16 @@ TEST_F(Store, TimesAreInTheirOwnFileOnly) {
   store_.keep(run, truth_, "inputs");
   EXPECT_EQ(text_of(place / "frames.csv"), frames);
   EXPECT_EQ(text_of(place / "run.json"), json);
+}
+
+TEST_F(Store, TimesAreKeptInMilliseconds) {
+  BenchRun run = motley();
+  run.learn_s = 0.25;
+  run.frames.resize(1);
+  run.frames[0].time_s = 0.5;
+  store_.keep(run, truth_, "inputs");
+  EXPECT_EQ(text_of(store_.folder_of(run.sequence, run.method) / "times.csv"),
+            "frame,cpu_ms\nlearn,250\n0,500\n");
 }
 
 TEST_F(Store, WhatIsDamagedWasNeverKept) {
