@@ -29,10 +29,10 @@ struct LearnedFeatures {
 /// Most features of a template, all views together: matching costs their product with the image's.
 constexpr int kMaxLearnedFeatures = 1500;
 
-/// Affine maps of the views a template is learned from, template px -> view px: enlarged twice, then
-/// compressed to 0.62 along eight directions 22.5 degrees apart. Whatever the direction of a tilt of
-/// up to 60 degrees, some view then looks the same up to a compression of 0.73, that of a tilt of 43
-/// degrees, which SIFT bears (ASIFT, Yu & Morel 2011, simulates tilts the same way).
+/// Affine maps of the views a template is learned from, template px -> view px: enlarged twice,
+/// then compressed to 0.62 along eight directions 22.5 degrees apart. Whatever the direction of a
+/// tilt of up to 60 degrees, some view then looks the same up to a compression of 0.73, that of a
+/// tilt of 43 degrees, which SIFT bears (ASIFT, Yu & Morel 2011, simulates tilts the same way).
 std::vector<Eigen::Matrix2d> template_views();
 
 /// What is learned once of the rectangle box (whole pixels) of an 8-bit grey image: the SIFT
