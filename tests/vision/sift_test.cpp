@@ -45,6 +45,10 @@ cv::Mat blob(double u, double v, double s, double stretch = 1) {
   return gray;
 }
 
+bool is_same(const SiftPoint& a, const SiftPoint& b) {
+  return a.u == b.u && a.v == b.v && a.scale_px == b.scale_px && a.angle_rad == b.angle_rad;
+}
+
 /// The strongest keypoint.
 SiftPoint strongest(const SiftPoints& points) {
   return *std::max_element(points.at.begin(), points.at.end(),
@@ -156,7 +160,7 @@ TEST(FastSift, KeepsTheStrongestInTheirOrder) {
   std::size_t next = 0;
   for (const SiftPoint& p : some.at) {
     EXPECT_GE(p.response, responses[49]);
-    while (next < all.at.size() && std::memcmp(&p, &all.at[next], sizeof p) != 0) ++next;
+    while (next < all.at.size() && !is_same(p, all.at[next])) ++next;
     EXPECT_LT(next, all.at.size()) << "not in the order of the whole";
   }
 }
