@@ -110,8 +110,8 @@ StressSequence stress_sequence(const StressOptions& options) {
                                         noise_table(name + " noise")});
   StressSequence result;
   result.sequence.name = name;
-  result.sequence.template_px = {double(320 - size.width / 2), double(240 - size.height / 2),
-                                 double(size.width), double(size.height)};
+  result.sequence.template_px = {320 - size.width / 2., 240 - size.height / 2., double(size.width),
+                                 double(size.height)};
   result.sequence.open = [plan] { return std::make_unique<StressSource>(plan); };
   for (std::int64_t frame = 0; frame < options.frames; ++frame) {
     if (gap(*plan, frame) != Gap::None) {

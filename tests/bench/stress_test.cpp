@@ -11,9 +11,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "bench/stress_light.hpp"
 #include "bench/stress_motion.hpp"
 #include "bench/stress_scene.hpp"
 #include "bench/stress_texture.hpp"
+#include "bench/stress_view.hpp"
 
 namespace kestrel::test {
 namespace {
@@ -82,6 +84,19 @@ TEST_F(Stress, SpeedsArePhysical) {
     std::cout << cls << " " << fastest << "\n";
     EXPECT_GT(fastest, bound.first) << cls;
     EXPECT_LT(fastest, bound.second) << cls;
+  }
+}
+
+/// A frame is stamped at the middle of its exposure.
+TEST(StressView, InstantsLieAboutTheFrame) {
+  const StressView view{"flight", {206, 154}, stress_motion("flight", "a")};
+  for (const std::int64_t k : {0, 5, 70}) {
+    const std::vector<double> times = instants(view, k);
+    double sum = 0;
+    for (const double t : times) sum += t / double(times.size());
+    EXPECT_NEAR(sum, double(k), 1e-9);
+    EXPECT_LE(times.back() - times.front(), stress_exposure("flight"));
+    EXPECT_EQ(times.size() == 1, k == 0);
   }
 }
 
