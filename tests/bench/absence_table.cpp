@@ -46,6 +46,7 @@ void print_accepts(const std::string& texture, const Arguments& a) {
   const Frame first = sequence.sequence.open()->next().value();
   const std::vector<BenchMethod> methods = bench_methods(a.methods);
   std::vector<BenchTracker> trackers;
+  trackers.reserve(methods.size());
   for (const BenchMethod& method : methods) {
     trackers.push_back(method.learn(first.gray, sequence.sequence.template_px));
   }

@@ -30,7 +30,7 @@ std::vector<BenchMethod> bench_methods() {
 }
 
 std::vector<BenchMethod> bench_methods(const std::vector<std::string>& names) {
-  const std::vector<BenchMethod> all = bench_methods();
+  std::vector<BenchMethod> all = bench_methods();
   if (names.empty()) return all;
   std::vector<BenchMethod> chosen;
   for (const std::string& name : names) {

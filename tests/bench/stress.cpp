@@ -87,8 +87,8 @@ class StressSource final : public FrameSource {
 }  // namespace
 
 std::vector<std::string> stress_classes() {
-  return {"nominal",   "scale",  "rotation",      "tilt", "blur",     "noise",
-          "occlusion", "flight", "flight_window", "fast", "blackout", "small"};
+  return {"nominal", "scale",         "rotation", "tilt", "blur",     "noise", "occlusion",
+          "flight",  "flight_window", "gust",     "fast", "blackout", "small"};
 }
 
 void StressOptions::check() const {
@@ -110,7 +110,7 @@ StressSequence stress_sequence(const StressOptions& options) {
                                         noise_table(name + " noise")});
   StressSequence result;
   result.sequence.name = name;
-  result.sequence.template_px = {320. - size.width / 2, 240. - size.height / 2, double(size.width),
+  result.sequence.template_px = {320 - size.width / 2., 240 - size.height / 2., double(size.width),
                                  double(size.height)};
   result.sequence.open = [plan] { return std::make_unique<StressSource>(plan); };
   for (std::int64_t frame = 0; frame < options.frames; ++frame) {

@@ -39,8 +39,9 @@ int run(int argc, char** argv) {
   for (const std::string& cls : kestrel::test::stress_classes()) {
     if (argc > 2 && cls != argv[2]) continue;
     const std::string texture = argc > 3 ? argv[3] : "graffiti";
-    write(kestrel::test::stress_sequence({cls, texture, 150, 1}),
-          std::string(argv[1]) + "/" + cls + "_" + texture + "_", step);
+    std::string start = argv[1];
+    start.append("/").append(cls).append("_").append(texture).append("_");
+    write(kestrel::test::stress_sequence({cls, texture, 150, 1}), start, step);
   }
   return 0;
 }

@@ -68,11 +68,17 @@ StressLight stress_light(const std::string& cls, std::int64_t frame) {
     light.noise_grey = 4;
     light.defocus_px = 0.6;
   }
+  if (cls == "gust") {  // at dusk
+    light.noise_grey = 8;
+    light.defocus_px = 0.8;
+    light.gain = 0.6;
+  }
   return light;
 }
 
 double stress_exposure(const std::string& cls) {
   if (cls == "blur") return 0.6;
+  if (cls == "gust") return 0.7;
   if (cls == "flight" || cls == "flight_window") return 0.4;
   return 0;
 }

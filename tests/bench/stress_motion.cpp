@@ -75,6 +75,17 @@ StressMotion flight() {
   return m;
 }
 
+/// The same in gusts: the vibration twice as large.
+StressMotion gust() {
+  StressMotion m = flight();
+  m.u = {{65, 90}, {5, 30 / 11.3}, {2.5, 30 / 17.9}};
+  m.v = {{40, 80}, {4, 30 / 11.3}, {2, 30 / 17.9}};
+  m.octaves = {{0.5, 150}};
+  m.roll = {{15 * kDegree, 110}, {0.8 * kDegree, 30 / 13.1}};
+  m.tilt = {{35 * kDegree, 150}};
+  return m;
+}
+
 StressMotion blackout() {
   StressMotion m = nominal();
   m.u = {{10, 90}};
@@ -149,7 +160,8 @@ StressMotion stress_motion(const std::string& cls, const std::string& name) {
   const std::map<std::string, StressMotion (*)()> laws = {
       {"nominal", nominal},      {"scale", scale},   {"rotation", rotation}, {"tilt", tilt},
       {"blur", shaken},          {"noise", nominal}, {"occlusion", nominal}, {"flight", flight},
-      {"flight_window", flight}, {"fast", fast},     {"blackout", blackout}, {"small", nominal}};
+      {"flight_window", flight}, {"gust", gust},     {"fast", fast},         {"blackout", blackout},
+      {"small", nominal}};
   const auto law = laws.find(cls);
   if (law == laws.end()) throw std::invalid_argument("class: there is none named " + cls);
   Random random(name + " motion");

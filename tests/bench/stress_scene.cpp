@@ -19,7 +19,9 @@ constexpr int kWallHeight_px = 1400;
 constexpr double kFacadePxPerMetre = 66;  // windows of 59 x 106 px every 198 x 211 px
 constexpr std::uint64_t kFacadeSeed = 11;
 
-bool is_flight(const std::string& cls) { return cls == "flight" || cls == "flight_window"; }
+bool is_flight(const std::string& cls) {
+  return cls == "flight" || cls == "flight_window" || cls == "gust";
+}
 
 TexturedPlane plane(const cv::Mat& texture, double width_m, double height_m) {
   TexturedPlane result{texture, width_m, height_m, {}};
@@ -104,9 +106,10 @@ cv::Mat light_of(const Renderer& renderer, const TargetPose& camera_from_target)
 cv::Size poster_size(const std::string& cls, cv::Size picture) {
   if (cls == "small") return {60, 46};
   if (cls == "flight_window") return {160, 170};
+  const double area_px2 = cls == "gust" ? 12000 : 32000;
   const double shape = std::clamp(double(picture.width) / picture.height, 2. / 3, 1.5);
-  return {2 * int(std::lround(std::sqrt(32000 * shape) / 2)),
-          2 * int(std::lround(std::sqrt(32000 / shape) / 2))};
+  return {2 * int(std::lround(std::sqrt(area_px2 * shape) / 2)),
+          2 * int(std::lround(std::sqrt(area_px2 / shape) / 2))};
 }
 
 double occluder_side_m(cv::Size poster_px) {

@@ -36,7 +36,7 @@ class StressScene {
 };
 
 /// Size of the poster for a class, px: even sides, the picture's proportions between 2:3 and 3:2,
-/// 32 000 px^2; 60x45 for "small", 160x170 for the window.
+/// 32 000 px^2 (12 000 for "gust"); 60x46 for "small", 160x170 for the window.
 cv::Size poster_size(const std::string& cls, cv::Size picture);
 
 /// Side of the square occluder that hides 40 % of a poster of this size when all of it is before

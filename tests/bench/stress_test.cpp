@@ -11,9 +11,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "bench/stress_light.hpp"
 #include "bench/stress_motion.hpp"
 #include "bench/stress_scene.hpp"
 #include "bench/stress_texture.hpp"
+#include "bench/stress_view.hpp"
 
 namespace kestrel::test {
 namespace {
@@ -58,11 +60,13 @@ TEST_F(Stress, SpeedsArePhysical) {
   const std::map<std::string, std::pair<double, double>> bounds = {
       {"nominal", {2, 6}},        {"scale", {5, 14}}, {"rotation", {6, 14}}, {"tilt", {4, 14}},
       {"blur", {10, 24}},         {"noise", {2, 6}},  {"occlusion", {2, 6}}, {"flight", {5, 16}},
-      {"flight_window", {5, 16}}, {"fast", {15, 24}}, {"small", {2, 6}}};
+      {"flight_window", {5, 16}}, {"fast", {15, 24}}, {"small", {2, 6}},     {"gust", {15, 32}}};
   for (const auto& [cls, bound] : bounds) {
     double fastest = 0;
     for (const std::string& texture : texture_names(StressSet::Dev)) {
-      const StressMotion motion = stress_motion(cls, cls + "/" + texture + "/1");
+      std::string name = cls;
+      name.append("/").append(texture).append("/1");
+      const StressMotion motion = stress_motion(cls, name);
       const Homography none;
       for (int k = 1; k < 300; ++k) {
         const auto corner = [&](double t, double x, double y) {
@@ -80,6 +84,19 @@ TEST_F(Stress, SpeedsArePhysical) {
     std::cout << cls << " " << fastest << "\n";
     EXPECT_GT(fastest, bound.first) << cls;
     EXPECT_LT(fastest, bound.second) << cls;
+  }
+}
+
+/// A frame is stamped at the middle of its exposure.
+TEST(StressView, InstantsLieAboutTheFrame) {
+  const StressView view{"flight", {206, 154}, stress_motion("flight", "a")};
+  for (const std::int64_t k : {0, 5, 70}) {
+    const std::vector<double> times = instants(view, k);
+    double sum = 0;
+    for (const double t : times) sum += t / double(times.size());
+    EXPECT_NEAR(sum, double(k), 1e-9);
+    EXPECT_LE(times.back() - times.front(), stress_exposure("flight"));
+    EXPECT_EQ(times.size() == 1, k == 0);
   }
 }
 
@@ -112,8 +129,9 @@ TEST_F(Stress, OccluderHidesUpToFortyPercent) {
     const auto back = occluder_pose(k).inverse();
     int hidden = 0;
     for (int i = 0; i < 2500; ++i) {
+      const int row = i / 50;
       const Eigen::Vector3d p(((i % 50 + 0.5) / 50 - 0.5) * px.width / kPxPerMetre,
-                              ((double(i / 50) + 0.5) / 50 - 0.5) * px.height / kPxPerMetre, 0);
+                              ((row + 0.5) / 50 - 0.5) * px.height / kPxPerMetre, 0);
       const Eigen::Vector3d q = back * p;
       hidden += std::abs(q.x()) < half_m && std::abs(q.y()) < half_m ? 1 : 0;
     }

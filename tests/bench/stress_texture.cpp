@@ -49,7 +49,7 @@ StressTexture stress_texture(const std::string& name) {
 }
 
 cv::Mat load_picture(const std::string& file) {
-  const cv::Mat gray = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  cv::Mat gray = cv::imread(file, cv::IMREAD_GRAYSCALE);
   if (gray.empty()) {
     throw std::runtime_error(file +
                              ": cannot be read; install Debian's opencv-doc and visp-images-data");

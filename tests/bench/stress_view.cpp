@@ -45,6 +45,7 @@ std::vector<double> instants(const StressView& view, std::int64_t frame) {
   }
   const int n = std::clamp(int(std::ceil(path_px / kBetweenSubframes_px)), 2, kMostSubframes);
   std::vector<double> result;
+  result.reserve(std::size_t(n));
   for (int i = 0; i < n; ++i) result.push_back(double(frame) + open * ((i + 0.5) / n - 0.5));
   return result;
 }
@@ -67,8 +68,9 @@ double visible_share(const StressView& view, double t_frames) {
   constexpr int kGrid = 20;
   int inside = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {
+    const int row = i / kGrid;
     const Pixel p = H * Pixel{(i % kGrid + 0.5) / kGrid * view.template_px.width - 0.5,
-                              (double(i / kGrid) + 0.5) / kGrid * view.template_px.height - 0.5};
+                              (row + 0.5) / kGrid * view.template_px.height - 0.5};
     inside += p.u > 0 && p.v > 0 && p.u < 639 && p.v < 479 ? 1 : 0;
   }
   return inside / double(kGrid * kGrid);
