@@ -72,6 +72,16 @@ bool is_better(const Alignment& a, const Alignment& b) {
   return a.is_accepted != b.is_accepted ? a.is_accepted : a.agreement.shown() > b.agreement.shown();
 }
 
+/// The pairs of keypoints that led to a place.
+std::vector<PixelPair> pairs_of(const Detection& seen, int hypothesis) {
+  std::vector<PixelPair> pairs;
+  for (const int i : seen.hypotheses[std::size_t(hypothesis)].inliers) {
+    const AffinePair& pair = seen.pairs[std::size_t(i)];
+    pairs.push_back({pair.in_template, pair.in_image});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
@@ -156,49 +166,45 @@ Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
                 : result.matches < options_.detect.fit.min_inliers ? Miss::FewMatches
                                                                    : Miss::NoConsensus;
   if (seen.hypotheses.empty()) return result;
-  std::vector<Alignment> places;
-  for (const FittedHomography& h : seen.hypotheses) {
-    look(frame, with_margin(box_of(h.image_from_template, model_)));
-    if (const auto place = aligner_.align(pyramid_, h.image_from_template)) {
-      places.push_back(*place);
-    }
+  std::vector<Place> places;
+  for (int i = 0; i < int(seen.hypotheses.size()); ++i) {
+    const Homography& start = seen.hypotheses[std::size_t(i)].image_from_template;
+    look(frame, with_margin(box_of(start, model_)));
+    if (const auto at = aligner_.align(pyramid_, start)) places.push_back({*at, i});
   }
-  std::stable_sort(places.begin(), places.end(), is_better);
-  choose(places, expected, result);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return is_better(a.at, b.at); });
+  result.miss = Miss::NotAlike;
+  if (places.empty()) return result;
+  const Choice choice = choose(places, expected);
+  result.miss = choice.miss;
+  result.at = places[choice.place].at;
   settle(frame, result);
-  if (!result.is_accepted()) return result;
-  for (const int i : seen.hypotheses.front().inliers) {
-    const AffinePair& pair = seen.pairs[std::size_t(i)];
-    result.inliers.push_back({pair.in_template, pair.in_image});
-  }
+  if (result.is_accepted()) result.inliers = pairs_of(seen, places[choice.place].hypothesis);
   return result;
 }
 
-void TargetSearch::choose(const std::vector<Alignment>& places,
-                          const std::optional<Expectation>& expected, Sighting& sighting) const {
-  sighting.miss = Miss::NotAlike;
-  if (places.empty()) return;
-  sighting.at = places.front();
-  if (!is_possible(places.front())) return;
-  sighting.miss = Miss::None;
-  const Homography& best = places.front().image_from_template;
-  for (const Alignment& rival : places) {
-    const bool is_rival =
-        is_possible(rival) &&
-        rival.agreement.shown() > kRivalShare * places.front().agreement.shown() &&
-        !is_same(rival.image_from_template, best, model_);
-    if (!is_rival) continue;
-    if (!expected) {
-      sighting.miss = Miss::Ambiguous;
-      return;
+TargetSearch::Choice TargetSearch::choose(const std::vector<Place>& places,
+                                          const std::optional<Expectation>& expected) const {
+  const Alignment& best = places.front().at;
+  if (!is_possible(best)) return {0, Miss::NotAlike};
+  const auto off = [&](std::size_t i) {
+    return apart(places[i].at.image_from_template, expected->image_from_template, model_);
+  };
+  Choice choice;
+  bool has_rival = false;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Alignment& rival = places[i].at;
+    if (!is_possible(rival) || rival.agreement.shown() <= kRivalShare * best.agreement.shown() ||
+        is_same(rival.image_from_template, best.image_from_template, model_)) {
+      continue;
     }
-    const Homography& there = expected->image_from_template;
-    const double chosen = apart(sighting.at->image_from_template, there, model_);
-    if (apart(rival.image_from_template, there, model_) < chosen) sighting.at = rival;
+    has_rival = true;
+    if (expected && off(i) < off(choice.place)) choice.place = i;
   }
-  if (!expected || sighting.at->image_from_template.H == best.H) return;
-  const double off = apart(sighting.at->image_from_template, expected->image_from_template, model_);
-  if (off > kGate * expected->deviation_px) sighting.miss = Miss::Ambiguous;
+  const bool is_told = expected && off(choice.place) <= kGate * expected->deviation_px;
+  if (has_rival && !is_told) choice.miss = Miss::Ambiguous;
+  return choice;
 }
 
 }  // namespace kestrel

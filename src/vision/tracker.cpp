@@ -24,6 +24,12 @@ constexpr double kNearlyWhole = 0.6;
 /// the lens are worse.
 constexpr double kLeastVariancePx2 = 0.01;
 
+/// Time that passed; none between stamps that are out of order or not finite.
+double elapsed_s(double from_s, double to_s) {
+  const double elapsed = to_s - from_s;
+  return elapsed > 0 && std::isfinite(elapsed) ? elapsed : 0;
+}
+
 PixelBox whole(const Frame& frame) {
   return {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
 }
@@ -81,7 +87,7 @@ struct Tracker::Parts {
   std::optional<CornerMotion> motion_at(const Frame& frame, const TrackState& state) const {
     if (!state.motion) return std::nullopt;
     const double age_s = frame.stamp_s - state.motion->stamp_s;
-    if (!(age_s > 0 && age_s <= options.coast_s)) return std::nullopt;
+    if (!(age_s >= 0 && age_s <= options.coast_s)) return std::nullopt;
     return predicted(*state.motion, frame.stamp_s, options.motion);
   }
 
@@ -171,16 +177,13 @@ struct Tracker::Parts {
   }
 
   void missed(const Frame& frame, const TrackState& state, Track& t) const {
-    if (has_image(frame)) {
+    if (has_image(frame) && options.window != WindowPolicy::Fixed) {
       t.next.window = doubled_window(t.window, frame.gray.cols, frame.gray.rows);
     }
-    if (state.motion) t.age_s = std::max(frame.stamp_s - state.motion->stamp_s, 0.0);
+    if (state.motion) t.age_s = elapsed_s(state.motion->stamp_s, frame.stamp_s);
     const auto motion = motion_at(frame, state);
     const auto expected = expectation(motion);
-    if (!expected) {
-      if (state.motion && t.age_s > options.coast_s) t.next.motion.reset();
-      return;
-    }
+    if (!expected) return;
     t.status = TrackStatus::Coasting;
     t.predicted = expected->image_from_template;
     t.confidence = state.last_confidence * std::max(1 - t.age_s / options.coast_s, 0.0);

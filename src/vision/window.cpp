@@ -32,6 +32,13 @@ PixelBox twice(const PixelBox& box, int image_width, int image_height) {
                 std::max(2 * box.height, kMinSidePx), image_width, image_height);
 }
 
+/// What bounding_box() returns, without memory: this runs in every frame.
+PixelBox box_of(const std::array<Pixel, 4>& corners) {
+  const auto [left, right] = std::minmax({corners[0].u, corners[1].u, corners[2].u, corners[3].u});
+  const auto [top, bottom] = std::minmax({corners[0].v, corners[1].v, corners[2].v, corners[3].v});
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
 }  // namespace
 
 PixelBox first_window(const PixelBox& template_box, int image_width, int image_height) {
@@ -45,7 +52,7 @@ PixelBox window_around(const std::array<Pixel, 4>& outline, int image_width, int
       return whole(image_width, image_height);
     }
   }
-  return twice(bounding_box({outline.begin(), outline.end()}), image_width, image_height);
+  return twice(box_of(outline), image_width, image_height);
 }
 
 PixelBox doubled_window(const PixelBox& window, int image_width, int image_height) {

@@ -1,8 +1,10 @@
 #include "kestrel/geometry/homography.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -297,6 +299,67 @@ TEST(Homography, ImplausibleIsWhatIsNotFinite) {
   }
   EXPECT_FALSE(plausible({Matrix3d::Zero()}));
   EXPECT_FALSE(is_plausible({}, 1, 1));
+}
+
+/// The homography of an outline of a template of kWidth x kHeight.
+std::optional<Homography> from_outline(const std::array<Pixel, 4>& corners) {
+  return homography_from_outline(corners, kWidth, kHeight);
+}
+
+TEST(Homography, FromOutlineInvertsOutline) {
+  test::Random random("from outline");
+  for (int i = 0; i < 200; ++i) {
+    const Homography truth = any(random);
+    const auto corners = outline(truth, kWidth, kHeight);
+    const auto H = from_outline(corners);
+    ASSERT_TRUE(H);
+    const auto again = outline(*H, kWidth, kHeight);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_LT(distance(again[k], corners[k]), 1e-9);
+    // The corners leave no freedom: the map inside is the same.
+    const Pixel p = in_template(random);
+    EXPECT_LT(distance(*H * p, truth * p), 1e-9);
+    EXPECT_EQ(H->H(2, 2), 1);
+  }
+}
+
+TEST(Homography, FromOutlineAgreesWithTheFitOfFourPairs) {
+  test::Random random("from any outline");
+  for (int i = 0; i < 100; ++i) {
+    auto corners = outline(any(random), kWidth, kHeight);
+    for (Pixel& p : corners) p = {p.u + 5 * random.normal(), p.v + 5 * random.normal()};
+    std::vector<PixelPair> pairs;
+    for (std::size_t k = 0; k < 4; ++k) {
+      pairs.push_back({template_corners(kWidth, kHeight)[k], corners[k]});
+    }
+    const auto fit = fit_homography(pairs);
+    const auto H = from_outline(corners);
+    ASSERT_TRUE(fit && H);
+    EXPECT_LT(worst_px(*H, *fit), 1e-8);
+    EXPECT_LT((H->H - fit->H).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(Homography, NoneFromADegenerateOutline) {
+  const std::array<Pixel, 4> good{{{10, 20}, {300, 30}, {290, 250}, {20, 240}}};
+  ASSERT_TRUE(from_outline(good));
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<Pixel, 4> corners = good;
+    const Pixel a = good[(i + 1) % 4];
+    for (const std::size_t other : {2, 3}) {
+      const Pixel b = good[(i + other) % 4];
+      corners[i] = {a.u + 0.3 * (b.u - a.u), a.v + 0.3 * (b.v - a.v)};
+      EXPECT_FALSE(from_outline(corners)) << "three on a line, " << i << " " << other;
+    }
+    corners[i] = a;
+    EXPECT_FALSE(from_outline(corners)) << "two at one place, " << i;
+    corners = good;
+    corners[i].v = kNan;
+    EXPECT_FALSE(from_outline(corners));
+    corners[i].v = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(from_outline(corners));
+  }
+  EXPECT_FALSE(from_outline({{{5, 5}, {5, 5}, {5, 5}, {5, 5}}}));
+  EXPECT_FALSE(homography_from_outline(good, 1, 1));
 }
 
 }  // namespace

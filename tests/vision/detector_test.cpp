@@ -1,1 +1,104 @@
 #include "kestrel/vision/detector.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "support/planted_target.hpp"
+
+namespace kestrel {
+namespace {
+
+const PixelBox kEverywhere{0, 0, test::kGroundWidth, test::kGroundHeight};
+
+const Template& model() {
+  static const Template learned(test::planted(test::learned_place()), test::kLearnedAt, {});
+  return learned;
+}
+
+bool same(const Detection& a, const Detection& b) {
+  if (a.keypoints != b.keypoints || a.pairs.size() != b.pairs.size() ||
+      a.hypotheses.size() != b.hypotheses.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
+    if (a.hypotheses[i].image_from_template.H != b.hypotheses[i].image_from_template.H ||
+        a.hypotheses[i].inliers != b.hypotheses[i].inliers) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(Detector, FindsViewsOfTheTemplate) {
+  Detector detector(model(), {});
+  for (const test::Motion& motion :
+       {test::Motion{0.6, 0, 0, 0}, test::Motion{1, M_PI / 3, 0, 0}, test::Motion{1.6, -2, 0, 0},
+        test::Motion{1, 0, 0.9, 0}, test::Motion{1.1, 1, 0.9, 1}}) {
+    const Homography truth = test::placed_at({210, 150}, motion);
+    const Detection seen = detector.detect(test::planted(truth), kEverywhere);
+    ASSERT_FALSE(seen.hypotheses.empty()) << motion.scale << " " << motion.tilt;
+    const FittedHomography& best = seen.hypotheses.front();
+    // Keypoints lie to half a pixel; the corners are extrapolated from a dozen or more of them.
+    EXPECT_LT(test::error_px(best.image_from_template, truth), 3)
+        << motion.scale << " " << motion.tilt;
+    for (const int i : best.inliers) {
+      const AffinePair& pair = seen.pairs[std::size_t(i)];
+      EXPECT_LT(distance(truth * pair.in_template, pair.in_image), 5);
+    }
+  }
+}
+
+TEST(Detector, LooksOnlyInTheWindow) {
+  Detector detector(model(), {});
+  const PixelBox window{20, 30, 150, 120};
+  const Detection seen = detector.detect(test::planted(test::learned_place()), window);
+  ASSERT_FALSE(seen.pairs.empty());
+  EXPECT_LT(seen.keypoints,
+            detector.detect(test::planted(test::learned_place()), kEverywhere).keypoints);
+  for (const AffinePair& pair : seen.pairs) {
+    EXPECT_GE(pair.in_image.u, 20);
+    EXPECT_LT(pair.in_image.u, 170);
+    EXPECT_GE(pair.in_image.v, 30);
+    EXPECT_LT(pair.in_image.v, 150);
+  }
+}
+
+TEST(Detector, SeesNothingInNothing) {
+  Detector detector(model(), {});
+  const cv::Mat flat(test::kGroundHeight, test::kGroundWidth, CV_8UC1, cv::Scalar(90));
+  for (const Detection& seen :
+       {detector.detect(flat, kEverywhere), detector.detect({}, kEverywhere),
+        detector.detect(test::ground(), PixelBox{}),
+        detector.detect(test::ground(), PixelBox{999, 0, 50, 50})}) {
+    EXPECT_EQ(seen.keypoints, 0);
+    EXPECT_TRUE(seen.pairs.empty());
+    EXPECT_TRUE(seen.hypotheses.empty());
+  }
+}
+
+TEST(Detector, RemembersNothing) {
+  Detector used(model(), {});
+  Detector fresh(model(), {});
+  used.detect(test::ground(), kEverywhere);
+  const cv::Mat image = test::planted(test::placed_at({230, 160}, {0.8, 1, 0.4, 0}));
+  const Detection first = used.detect(image, kEverywhere);
+  EXPECT_FALSE(first.hypotheses.empty());
+  EXPECT_TRUE(same(first, fresh.detect(image, kEverywhere)));
+  EXPECT_TRUE(same(first, used.detect(image, kEverywhere)));
+}
+
+TEST(Detector, GivesTheSameBitsWithAndWithoutAvx2) {
+  TrackOptions plain;
+  plain.simd = Simd::Baseline;
+  Detector fast(model(), {});
+  Detector slow(model(), plain);
+  const cv::Mat image = test::planted(test::placed_at({230, 160}, {0.8, 1, 0.4, 0}));
+  EXPECT_TRUE(same(fast.detect(image, kEverywhere), slow.detect(image, kEverywhere)));
+}
+
+}  // namespace
+}  // namespace kestrel

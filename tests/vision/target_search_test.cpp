@@ -1,1 +1,159 @@
 #include "kestrel/vision/target_search.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "support/planted_target.hpp"
+
+namespace kestrel {
+namespace {
+
+using test::error_px;
+using test::placed_at;
+using test::planted;
+
+const PixelBox kEverywhere{0, 0, test::kGroundWidth, test::kGroundHeight};
+
+const Template& model() {
+  static const Template learned(planted(test::learned_place()), test::kLearnedAt, {});
+  return learned;
+}
+
+TargetSearch& search() {
+  static TargetSearch shared(model(), {});
+  return shared;
+}
+
+Frame frame_of(const cv::Mat& gray) { return test::frame_of(gray, 0); }
+
+/// The target's place, so many px off.
+Homography shifted(const Homography& H, double du, double dv) {
+  return test::product(test::translation(du, dv), H);
+}
+
+/// Two targets of the same picture.
+cv::Mat twins(const Homography& one, const Homography& other) {
+  cv::Mat image = test::ground();
+  test::plant(image, one);
+  test::plant(image, other);
+  cv::addWeighted(image, 1, test::noise_of_ground(), 1, -128, image);
+  return image;
+}
+
+TEST(TargetSearch, FollowsFromWhicheverPlaceShowsMore) {
+  const Homography truth = placed_at({210, 150}, {1.05, 0.1, 0.2, 0});
+  const Frame frame = frame_of(planted(truth));
+  const Homography off = shifted(truth, 70, 0);
+  const Homography near = shifted(truth, 3, -2);
+  for (const auto& [last, ahead] : {std::pair(near, off), std::pair(off, near)}) {
+    const Sighting seen = search().follow(frame, last, ahead);
+    ASSERT_TRUE(seen.is_accepted());
+    EXPECT_EQ(seen.stage, TrackStage::Aligned);
+    EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
+    EXPECT_EQ(seen.keypoints, 0);
+    EXPECT_LT(seen.window.width, test::kGroundWidth);  // only what it looked at
+  }
+}
+
+TEST(TargetSearch, SearchesTheNeighbourhoodWhenInDoubt) {
+  const Homography truth = placed_at({210, 150});
+  const Frame frame = frame_of(planted(truth));
+  for (int k = 0; k < 8; ++k) {
+    const double a = k * M_PI / 4;
+    const Homography off = shifted(truth, 38 * std::cos(a), 38 * std::sin(a));
+    const Sighting seen = search().follow(frame, off, off);
+    ASSERT_TRUE(seen.is_accepted()) << k;
+    EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2) << k;
+  }
+}
+
+TEST(TargetSearch, FollowsNothingThatIsNotThere) {
+  const Homography H = placed_at({210, 150});
+  const Sighting gone = search().follow(frame_of(test::ground()), H, H);
+  EXPECT_FALSE(gone.is_accepted());
+  EXPECT_EQ(gone.miss, Miss::NotAlike);
+  const Homography outside = placed_at({2000, -900});
+  EXPECT_FALSE(search().follow(frame_of(planted(H)), outside, outside).is_accepted());
+}
+
+TEST(TargetSearch, ACoveredTargetIsAWeakSight) {
+  const Homography truth = placed_at({210, 150});
+  const Sighting whole = search().follow(frame_of(planted(truth)), truth, truth);
+  ASSERT_TRUE(whole.is_accepted());
+  EXPECT_FALSE(search().is_weak(*whole.at));
+  cv::Mat covered = planted(truth);
+  covered(cv::Rect(130, 80, 88, 140)).setTo(128);  // 55 % of it
+  const Sighting part = search().follow(frame_of(covered), truth, truth);
+  ASSERT_TRUE(part.is_accepted());
+  EXPECT_TRUE(search().is_weak(*part.at));
+  EXPECT_LT(error_px(part.at->image_from_template, truth), 0.5);
+}
+
+TEST(TargetSearch, DetectsAndRefinesOnThePixels) {
+  const Homography truth = placed_at({230, 160}, {0.8, 1, 0.5, 0});
+  const Sighting seen = search().detect(frame_of(planted(truth)), kEverywhere, {});
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_EQ(seen.stage, TrackStage::Detected);
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
+  EXPECT_GT(seen.keypoints, seen.matches);
+  EXPECT_GE(int(seen.inliers.size()), TrackOptions{}.detect.fit.min_inliers);
+}
+
+TEST(TargetSearch, SaysWhyItDetectsNothing) {
+  const cv::Mat flat(test::kGroundHeight, test::kGroundWidth, CV_8UC1, cv::Scalar(90));
+  EXPECT_EQ(search().detect(frame_of(flat), kEverywhere, {}).miss, Miss::FewKeypoints);
+  const Sighting strange = search().detect(frame_of(test::ground()), kEverywhere, {});
+  EXPECT_FALSE(strange.is_accepted());
+  EXPECT_TRUE(strange.inliers.empty());
+}
+
+class TwoEqualTargets : public testing::Test {
+ protected:
+  const Homography left_ = placed_at({85, 100});
+  const Homography right_ = placed_at({300.4, 195.3});
+  const Frame frame_ = frame_of(twins(left_, right_));
+
+  Sighting seen(const Homography& where, double deviation_px) const {
+    return search().detect(frame_, kEverywhere, Expectation{where, deviation_px});
+  }
+};
+
+TEST_F(TwoEqualTargets, AreAmbiguousWhenNothingIsExpected) {
+  const Sighting unknown = search().detect(frame_, kEverywhere, {});
+  EXPECT_EQ(unknown.miss, Miss::Ambiguous);
+  EXPECT_TRUE(unknown.inliers.empty());
+}
+
+TEST_F(TwoEqualTargets, AreToldApartByWhatIsExpected) {
+  for (const Homography& one : {left_, right_}) {
+    const Sighting told = seen(shifted(one, 8, 5), 5);
+    ASSERT_TRUE(told.is_accepted()) << name(told.miss);
+    EXPECT_LT(error_px(told.at->image_from_template, one), 0.2);
+    // The pairs reported are those of the place reported.
+    ASSERT_FALSE(told.inliers.empty());
+    for (const PixelPair& pair : told.inliers) {
+      EXPECT_LT(distance(one * pair.in_template, pair.in_image), 5);
+    }
+  }
+}
+
+TEST_F(TwoEqualTargets, AreAmbiguousWhenNeitherIsWhereItIsExpected) {
+  // 40 px off with 5 px deviation, on either side: whichever of the two shows more.
+  EXPECT_EQ(seen(shifted(left_, 0, 40), 5).miss, Miss::Ambiguous);
+  EXPECT_EQ(seen(shifted(right_, 0, -40), 5).miss, Miss::Ambiguous);
+}
+
+TEST(TargetSearch, OneTargetIsFoundWhereverItIsExpected) {
+  const Homography truth = placed_at({280, 190});
+  const Expectation elsewhere{placed_at({100, 90}), 3};
+  const Sighting seen = search().detect(frame_of(planted(truth)), kEverywhere, elsewhere);
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
+}
+
+}  // namespace
+}  // namespace kestrel

@@ -1,5 +1,6 @@
 #include "kestrel/vision/template.hpp"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -31,9 +32,10 @@ cv::Mat scene() {
   return test::texture(200, 160, random);
 }
 
-std::string complaint(const cv::Mat& gray, const PixelBox& box) {
+std::string complaint(const cv::Mat& gray, const PixelBox& box,
+                      const TrackOptions& options = kPaper) {
   try {
-    const Template model(gray, box, kPaper);
+    const Template model(gray, box, options);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -114,12 +116,79 @@ TEST(Template, SaysWhatToDoAboutAnImageThatIsNotGrey) {
 }
 
 TEST(Template, RefusesOptionsOutOfRange) {
-  SiftOptions sift;
-  sift.sigma = -1;
-  EXPECT_THROW(Template(scene(), {50, 40, 90, 70}, sift, {}), std::invalid_argument);
-  MatchOptions match;
-  match.ratio = 2;
-  EXPECT_THROW(Template(scene(), {50, 40, 90, 70}, {}, match), std::invalid_argument);
+  TrackOptions options = kPaper;
+  options.sift.sigma = -1;
+  EXPECT_THROW(Template(scene(), {50, 40, 90, 70}, options), std::invalid_argument);
+  options = kPaper;
+  options.match.ratio = 2;
+  EXPECT_THROW(Template(scene(), {50, 40, 90, 70}, options), std::invalid_argument);
+  options = {};
+  options.blocks.noise_grey = 0;
+  EXPECT_THROW(Template(scene(), {50, 40, 90, 70}, options), std::invalid_argument);
+}
+
+TEST(Template, LearnsForItsMethodOnly) {
+  const Template paper(scene(), {50, 40, 90, 70}, kPaper);
+  EXPECT_FALSE(paper.keypoints().at.empty());
+  EXPECT_TRUE(paper.features().at.empty());
+  EXPECT_TRUE(paper.blocks().levels.empty());
+  TrackOptions options;
+  for (const TrackMethod method : {TrackMethod::Detect, TrackMethod::Hybrid}) {
+    options.method = method;
+    const Template model(scene(), {50, 40, 90, 70}, options);
+    EXPECT_TRUE(model.keypoints().at.empty());
+    EXPECT_FALSE(model.features().at.empty());
+    EXPECT_FALSE(model.blocks().levels.empty());
+  }
+}
+
+TEST(Template, HasTheFeaturesAndBlocksOfItsRectangle) {
+  const cv::Mat image = scene();
+  const PixelBox box{50, 40, 90, 70};
+  const Template model(image, box, {});
+  const LearnedFeatures alone = learn_features(image, box, {});
+  ASSERT_EQ(model.features().at.size(), alone.at.size());
+  ASSERT_GT(alone.at.size(), 100U);  // nine views of some twenty keypoints each
+  for (std::size_t i = 0; i < alone.at.size(); ++i) {
+    EXPECT_EQ(model.features().descriptors[i].bin, alone.descriptors[i].bin);
+    EXPECT_GE(alone.at[i].in_template.u, 0);
+    EXPECT_LE(alone.at[i].in_template.u, 89);
+    EXPECT_LE(alone.at[i].in_template.v, 69);
+  }
+  EXPECT_EQ(model.blocks().width, 90);
+  EXPECT_EQ(model.blocks().height, 70);
+  ASSERT_EQ(model.blocks().levels.size(), 3U);  // 70, 35 and 17 px high; 8 would be too little
+  EXPECT_EQ(model.blocks().levels[0].textures,
+            template_blocks(model.picture(), {}).levels[0].textures);
+}
+
+TEST(Template, ForTheHybridSaysWhatToDoAboutTooLittleTexture) {
+  const cv::Mat flat(160, 200, CV_8U, cv::Scalar(90));
+  EXPECT_THAT(complaint(flat, {50, 40, 90, 70}, {}),
+              AllOf(HasSubstr("too little texture (0 textured blocks of 8x8 px, 8 needed)"),
+                    HasSubstr("choose a larger or more textured rectangle")));
+  // Four blocks, all of them textured: fewer than can be told from chance.
+  EXPECT_THAT(complaint(scene(), {50, 40, 16, 16}, {}), HasSubstr("(4 textured blocks"));
+}
+
+TEST(Template, ForTheHybridRefusesTheSameRectangles) {
+  EXPECT_THAT(complaint(scene(), {160, 0, 50, 50}, {}), HasSubstr("not inside the 200x160 image"));
+  EXPECT_THAT(complaint(scene(), {50, 40, 15, 60}, {}), HasSubstr("at least 16x16"));
+  EXPECT_THAT(complaint(scene(), {50.5, 40, 60, 60}, {}), HasSubstr("round its numbers"));
+  EXPECT_THAT(complaint(cv::Mat(160, 200, CV_8UC3, cv::Scalar::all(1)), {50, 40, 90, 70}, {}),
+              HasSubstr("convert it first"));
+}
+
+TEST(Template, ForTheHybridNeedsNoKeypoints) {
+  // A smooth wave, which has no corner: nothing for SIFT, but every block shows it.
+  cv::Mat wave(160, 200, CV_8U);
+  for (int v = 0; v < wave.rows; ++v) {
+    for (int u = 0; u < wave.cols; ++u) {
+      wave.at<uchar>(v, u) = uchar(128 + 100 * std::sin(0.0004 * u * u + 0.02 * v));
+    }
+  }
+  EXPECT_THAT(complaint(wave, {50, 40, 90, 70}), HasSubstr("too little texture"));
+  EXPECT_EQ(complaint(wave, {50, 40, 90, 70}, {}), "");
 }
 
 }  // namespace

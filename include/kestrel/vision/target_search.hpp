@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -53,10 +54,18 @@ class TargetSearch {
   bool is_weak(const Alignment& place) const;
 
  private:
+  /// Where the pixels led from one of the detector's hypotheses.
+  struct Place {
+    Alignment at;
+    int hypothesis = 0;
+  };
+  struct Choice {
+    std::size_t place = 0;
+    Miss miss = Miss::None;
+  };
   void look(const Frame& frame, const PixelBox& window);
   bool is_possible(const Alignment& place) const;
-  void choose(const std::vector<Alignment>& places, const std::optional<Expectation>& expected,
-              Sighting& sighting) const;
+  Choice choose(const std::vector<Place>& places, const std::optional<Expectation>& expected) const;
 
   void settle(const Frame& frame, Sighting& sighting);
 

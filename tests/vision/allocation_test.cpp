@@ -1,0 +1,121 @@
+// Nothing is allocated while the pixels are followed. malloc is replaced in this program by one
+// that counts: operator new, Eigen and cv::Mat all end there.
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "kestrel/vision/tracker.hpp"
+
+#include "support/planted_target.hpp"
+
+namespace {
+
+std::atomic<int> allocations{0};
+
+}  // namespace
+
+extern "C" {
+
+void* __libc_malloc(std::size_t size);                       // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t count, std::size_t size);    // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* memory, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t align, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+
+void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(align, size);
+}
+
+int posix_memalign(void** memory, std::size_t align, std::size_t size) noexcept {
+  ++allocations;
+  *memory = __libc_memalign(align, size);
+  return *memory == nullptr ? 12 : 0;  // ENOMEM
+}
+
+}  // extern "C"
+
+namespace kestrel {
+namespace {
+
+constexpr double kFrame_s = 0.04;
+
+Homography flight(int k) {
+  const double a = 0.08 * k;
+  return test::placed_at({200 + 50 * std::sin(a), 150 + 35 * std::sin(1.3 * a)},
+                         {1 + 0.2 * std::sin(0.7 * a), 0.4 * std::sin(0.9 * a), 0.4, 1});
+}
+
+/// How often memory was asked for from the warm-up on, and in how many frames the target was found.
+struct Count {
+  int allocations = 0;
+  int found = 0;
+};
+
+Count counted(Tracker& tracker, const std::vector<cv::Mat>& images, std::size_t warm_up) {
+  Count count;
+  TrackState state = tracker.start(test::kGroundWidth, test::kGroundHeight);
+  state.last_seen = flight(0);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    const Frame frame = test::frame_of(images[k], double(k) * kFrame_s);
+    const int before = allocations;
+    const Track seen = tracker.track(frame, state);
+    if (k >= warm_up) count.allocations += allocations - before;
+    count.found += seen.found() ? 1 : 0;
+    state = seen.next;
+  }
+  return count;
+}
+
+TEST(Allocation, IsCounted) {
+  const int before = allocations;
+  const cv::Mat image(100, 100, CV_8UC1);
+  EXPECT_GT(allocations, before);
+  const int after = allocations;
+  const std::vector<int> numbers(50, 1);
+  EXPECT_GT(allocations, after) << numbers.size();
+}
+
+TEST(Allocation, ThereIsNoneWhileTheHybridFollowsThePixels) {
+  std::vector<cv::Mat> images;
+  for (int k = 0; k < 55; ++k) images.push_back(test::planted(flight(k)));
+  Tracker tracker = test::tracker_of({});
+  const Count count = counted(tracker, images, 5);
+  EXPECT_EQ(count.found, 55);
+  EXPECT_EQ(count.allocations, 0);
+}
+
+TEST(Allocation, ThereIsNoneWhenTheNeighbourhoodIsSearched) {
+  // Every fifth frame the target is a third of its width from where it should be.
+  std::vector<cv::Mat> images;
+  for (int k = 0; k < 30; ++k) {
+    const double jump = k % 10 >= 5 ? 24 : 0;
+    images.push_back(test::planted(test::placed_at({190 + jump, 150 + 0.5 * jump})));
+  }
+  Tracker tracker = test::tracker_of({});
+  const Count count = counted(tracker, images, 10);
+  EXPECT_EQ(count.found, 30);
+  EXPECT_EQ(count.allocations, 0);
+}
+
+}  // namespace
+}  // namespace kestrel
