@@ -67,9 +67,9 @@ struct Site {
   double texture = 0;  // sum of squared gradients
 };
 
-/// count starts of blocks from 0 to length - kSide, evenly spread.
-std::vector<int> starts(int length) {
-  const int count = (length + kSide - 1) / kSide;
+/// First pixels of blocks from 0 to length - kSide, evenly spread, a step or a little less apart.
+std::vector<int> starts(int length, int step) {
+  const int count = (length - kSide + step - 1) / step + 1;
   std::vector<int> result;
   for (int i = 0; i < count; ++i) {
     result.push_back(count == 1 ? 0 : (i * (length - kSide) + (count - 1) / 2) / (count - 1));
@@ -82,11 +82,12 @@ double norm2(const Plane& grey, int u, int v) {
   return (block - block.mean()).square().sum();
 }
 
-std::vector<Site> sites(const Plane& grey, const Gradient& g, double noise_grey) {
+/// Where there is more texture than noise, of a grid of this step.
+std::vector<Site> sites(const Plane& grey, const Gradient& g, double noise_grey, int step) {
   const double least = kPixels * noise_grey * noise_grey;
   std::vector<Site> result;
-  for (const int v : starts(int(grey.rows()))) {
-    for (const int u : starts(int(grey.cols()))) {
+  for (const int v : starts(int(grey.rows()), step)) {
+    for (const int u : starts(int(grey.cols()), step)) {
       if (norm2(grey, u, v) <= 2 * least) continue;  // as much noise as texture
       const double texture = (g.x.block<kSide, kSide>(v, u).square().sum()) +
                              double(g.y.block<kSide, kSide>(v, u).square().sum());
@@ -94,6 +95,15 @@ std::vector<Site> sites(const Plane& grey, const Gradient& g, double noise_grey)
     }
   }
   return result;
+}
+
+/// Sites side by side, or, where few of them show anything, each half over the next: an edge along
+/// the border of two blocks is in neither.
+std::vector<Site> sites(const Plane& grey, const Gradient& g, double noise_grey) {
+  std::vector<Site> apart = sites(grey, g, noise_grey, kSide);
+  const std::size_t all =
+      starts(int(grey.rows()), kSide).size() * starts(int(grey.cols()), kSide).size();
+  return 4 * apart.size() >= all ? apart : sites(grey, g, noise_grey, kSide / 2);
 }
 
 /// The sites with most texture of each cell of a grid of about count cells; what is left of the

@@ -27,14 +27,14 @@ constexpr PixelBox kBox{45, 25, 100, 90};
 
 TEST(TrackMethod, SaysWhatTheTrackerSays) {
   const TrackOptions options;
-  const BenchMethod method = track_method("paper", options);
-  EXPECT_EQ(method.name, "paper");
-  BenchTracker tracker = method.learn(textured(0), kBox);
+  const BenchMethod method = track_method("hybrid", options);
+  EXPECT_EQ(method.name, "hybrid");
+  BenchTracker bench = method.learn(textured(0), kBox);
   Tracker tracker(textured(0), kBox, options);
   TrackState state = tracker.start(240, 160);
   for (int k = 0; k < 3; ++k) {
     const Frame frame{k, k / 30.0, textured(4 * k), std::nullopt};
-    const BenchAnswer answer = tracker(frame);
+    const BenchAnswer answer = bench(frame);
     const Track seen = tracker.track(frame, state);
     state = seen.next;
     ASSERT_TRUE(seen.found());
@@ -50,7 +50,7 @@ TEST(TrackMethod, SaysWhatTheTrackerSays) {
 }
 
 TEST(TrackMethod, SaysWhyNothingWasFound) {
-  BenchTracker tracker = track_method("paper", {}).learn(textured(0), kBox);
+  BenchTracker tracker = track_method("hybrid", {}).learn(textured(0), kBox);
   const BenchAnswer answer =
       tracker({1, 0, cv::Mat(160, 240, CV_8UC1, cv::Scalar(9)), std::nullopt});
   EXPECT_FALSE(answer.image_from_template);

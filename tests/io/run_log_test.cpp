@@ -122,7 +122,9 @@ TEST(RunLog, HasOneFieldForEachColumn) {
   const test::TempFolder folder;
   test::Random random("run_log.fields");
   RunLog log(folder / "log.csv", {"north_m"});
-  log.write(LogRow{0, 0, {}, {}, 0, 0, 0, 0, {}, {}, {}, {}, {}, {}, {std::nan("")}});
+  LogRow empty;
+  empty.extra = {std::nan("")};
+  log.write(empty);
   for (int i = 0; i < 50; ++i) log.write(test::any_row(random, 1));
   std::istringstream lines(content(folder / "log.csv"));
   for (std::string line; std::getline(lines, line);)

@@ -14,9 +14,11 @@ namespace kestrel::test {
 
 /// Grey value of the paint at a point of the plane, m: noise of several sizes, smooth.
 inline double paint(double x, double y) {
-  const auto grain = [](std::int64_t i, std::int64_t j) {
-    std::uint64_t h =
-        std::uint64_t(i) * 0x9e3779b97f4a7c15ull ^ std::uint64_t(j) * 0xc2b2ae3d27d4eb4full;
+  // Each size has grains of its own: with the same ones the paint would look alike at half the size.
+  std::uint64_t octave = 0;
+  const auto grain = [&octave](std::int64_t i, std::int64_t j) {
+    std::uint64_t h = std::uint64_t(i) * 0x9e3779b97f4a7c15ull ^
+                      std::uint64_t(j) * 0xc2b2ae3d27d4eb4full ^ octave * 0xd6e8feb86659fd93ull;
     h = (h ^ (h >> 29)) * 0xbf58476d1ce4e5b9ull;
     h = (h ^ (h >> 32)) * 0x94d049bb133111ebull;
     return double((h ^ (h >> 31)) >> 11) * 0x1p-53 - 0.5;
@@ -24,6 +26,7 @@ inline double paint(double x, double y) {
   double sum = 0;
   double weight = 1;
   for (double cell = 0.16; cell > 0.015; cell /= 2, weight *= 0.8) {
+    ++octave;
     const double u = x / cell;
     const double v = y / cell;
     const auto i = std::int64_t(std::floor(u));

@@ -28,7 +28,12 @@ inline LogRow any_row(Random& random, int extra_columns) {
   LogRow row;
   row.frame = random.integer(0, 1000000);
   row.stamp_s = number();
-  row.miss = Miss(random.integer(0, int(Miss::BadOutline)));
+  row.status = kTrackStatuses[std::size_t(random.integer(0, int(kTrackStatuses.size()) - 1))];
+  row.stage = kTrackStages[std::size_t(random.integer(0, int(kTrackStages.size()) - 1))];
+  row.miss = kMisses[std::size_t(random.integer(0, int(kMisses.size()) - 1))];
+  row.age_s = number();
+  row.confidence = number();
+  row.alike_share = number();
   row.window = {number(), number(), number(), number()};
   row.keypoints = random.integer(0, 2000);
   row.matches = random.integer(0, 500);
@@ -38,6 +43,10 @@ inline LogRow any_row(Random& random, int extra_columns) {
     row.image_from_template.emplace().H = Eigen::Matrix3d::NullaryExpr([&] { return number(); });
   if (is_there())
     for (Pixel& corner : row.corners.emplace()) corner = {number(), number()};
+  if (is_there())
+    for (Pixel& corner : row.predicted.emplace()) corner = {number(), number()};
+  if (is_there())
+    for (auto& corner : row.noise.emplace()) corner = {number(), number(), number()};
   if (is_there()) row.attitude = Attitude{number(), number(), number()};
   if (is_there())
     row.pose = LoggedPose{{number(), number(), number()},

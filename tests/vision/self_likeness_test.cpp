@@ -14,9 +14,10 @@ double likeness(const cv::Mat& picture) {
   return self_likeness(picture, template_blocks(picture, {}), {}).share;
 }
 
-TEST(SelfLikeness, OfATextureWithoutRepetitionIsNone) {
+TEST(SelfLikeness, OfATextureWithoutRepetitionIsChance) {
   test::Random random("no repetition");
-  EXPECT_EQ(likeness(test::texture(160, 120, random)), 0);
+  // A part of it that is distorted enough: far below what a chessboard or a repeated part has.
+  EXPECT_LT(likeness(test::texture(160, 120, random)), 0.4);
 }
 
 TEST(SelfLikeness, OfAChessboardIsNearlyAll) {
