@@ -26,13 +26,6 @@ TrackState start_of(const Tracker& tracker) {
   return tracker.start(test::kGroundWidth, test::kGroundHeight);
 }
 
-/// One tracker for each method: what it saw before must not matter.
-Tracker& shared_tracker(TrackMethod method) {
-  static Tracker detect = test::tracker_of(options_of(TrackMethod::Detect));
-  static Tracker hybrid = test::tracker_of(options_of(TrackMethod::Hybrid));
-  return method == TrackMethod::Detect ? detect : hybrid;
-}
-
 /// A target that flies a loop, turns, nears and tilts; u and v to 4 px a frame.
 Homography flight(int k) {
   const double a = 0.08 * k;
@@ -45,7 +38,7 @@ Homography drift(int k) { return placed_at({150 + 3.0 * k, 130 + 1.0 * k}); }
 
 class TrackerOfPixels : public testing::TestWithParam<TrackMethod> {
  protected:
-  Tracker& tracker() { return shared_tracker(GetParam()); }
+  Tracker& tracker() { return test::shared_tracker(GetParam()); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, TrackerOfPixels,
