@@ -117,5 +117,13 @@ TEST(Allocation, ThereIsNoneWhenTheNeighbourhoodIsSearched) {
   EXPECT_EQ(count.allocations, 0);
 }
 
+TEST(Allocation, ThereIsNoneForTheHomographyOfAnOutline) {
+  const auto corners = outline(flight(7), 90, 70);
+  const int before = allocations;
+  const auto H = homography_from_outline(corners, 90, 70);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(H);
+}
+
 }  // namespace
 }  // namespace kestrel
