@@ -96,8 +96,8 @@ TEST(Allocation, IsCounted) {
 }
 
 TEST(Allocation, ThereIsNoneWhileTheHybridFollowsThePixels) {
-  std::vector<cv::Mat> images;
-  for (int k = 0; k < 55; ++k) images.push_back(test::planted(flight(k)));
+  std::vector<cv::Mat> images(55);
+  for (int k = 0; k < 55; ++k) images[std::size_t(k)] = test::planted(flight(k));
   Tracker tracker = test::tracker_of({});
   const Count count = counted(tracker, images, 5);
   EXPECT_EQ(count.found, 55);
