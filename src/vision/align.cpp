@@ -55,7 +55,7 @@ int pair_count(const LevelPair& finest, const TemplateBlocks& blocks, const Imag
   int count = 1;
   while (finest.in_template + count < int(blocks.levels.size()) &&
          finest.in_image + count < image.levels() &&
-         int(blocks.levels[std::size_t(finest.in_template + count)].blocks.size()) > 0) {
+         !blocks.levels[std::size_t(finest.in_template) + std::size_t(count)].blocks.empty()) {
     ++count;
   }
   return count;

@@ -24,7 +24,8 @@ Range widened(double begin, double length, int step, int limit) {
 void halve(const PyramidLevel& below, PyramidLevel& level, std::uint8_t* memory, Simd simd) {
   const kernel::HalveRow row = use_avx2(simd) ? kernel::halve_row_avx2 : kernel::halve_row_baseline;
   for (int y = level.top; y < level.bottom; ++y) {
-    const std::uint8_t* upper = below.pixels + 2 * y * below.stride + 2 * level.left;
+    const std::uint8_t* upper =
+        below.pixels + std::ptrdiff_t(y) * 2 * below.stride + std::ptrdiff_t(level.left) * 2;
     row(upper, upper + below.stride, level.right - level.left,
         memory + y * level.stride + level.left);
   }

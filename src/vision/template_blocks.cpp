@@ -71,6 +71,7 @@ struct Site {
 std::vector<int> starts(int length, int step) {
   const int count = (length - kSide + step - 1) / step + 1;
   std::vector<int> result;
+  result.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i) {
     result.push_back(count == 1 ? 0 : (i * (length - kSide) + (count - 1) / 2) / (count - 1));
   }
@@ -113,7 +114,8 @@ std::vector<Site> spread(std::vector<Site> all, int width, int height, int count
   const double cell = std::sqrt(double(width) * height / count);
   const int columns = int(std::ceil(width / cell));
   const auto cell_of = [&](const Site& s) {
-    return int((s.v + kSide / 2) / cell) * columns + int((s.u + kSide / 2) / cell);
+    constexpr int kHalf = kSide / 2;
+    return int((s.v + kHalf) / cell) * columns + int((s.u + kHalf) / cell);
   };
   std::stable_sort(all.begin(), all.end(),
                    [](const Site& a, const Site& b) { return a.texture > b.texture; });

@@ -80,6 +80,13 @@ inline TrackOptions options_of(TrackMethod method) {
   return options;
 }
 
+/// One tracker for each of the two methods: what it saw before must not matter.
+inline Tracker& shared_tracker(TrackMethod method) {
+  static Tracker detect = tracker_of(options_of(TrackMethod::Detect));
+  static Tracker hybrid = tracker_of(options_of(TrackMethod::Hybrid));
+  return method == TrackMethod::Detect ? detect : hybrid;
+}
+
 inline Frame frame_of(const cv::Mat& gray, double stamp_s) {
   Frame frame;
   frame.stamp_s = stamp_s;

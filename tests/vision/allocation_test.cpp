@@ -96,8 +96,8 @@ TEST(Allocation, IsCounted) {
 }
 
 TEST(Allocation, ThereIsNoneWhileTheHybridFollowsThePixels) {
-  std::vector<cv::Mat> images;
-  for (int k = 0; k < 55; ++k) images.push_back(test::planted(flight(k)));
+  std::vector<cv::Mat> images(55);
+  for (int k = 0; k < 55; ++k) images[std::size_t(k)] = test::planted(flight(k));
   Tracker tracker = test::tracker_of({});
   const Count count = counted(tracker, images, 5);
   EXPECT_EQ(count.found, 55);
@@ -115,6 +115,14 @@ TEST(Allocation, ThereIsNoneWhenTheNeighbourhoodIsSearched) {
   const Count count = counted(tracker, images, 10);
   EXPECT_EQ(count.found, 30);
   EXPECT_EQ(count.allocations, 0);
+}
+
+TEST(Allocation, ThereIsNoneForTheHomographyOfAnOutline) {
+  const auto corners = outline(flight(7), 90, 70);
+  const int before = allocations;
+  const auto H = homography_from_outline(corners, 90, 70);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(H);
 }
 
 }  // namespace

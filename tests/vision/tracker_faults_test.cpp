@@ -27,19 +27,13 @@ using test::planted;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFrame_s = 0.04;
 
-Tracker& shared_tracker(TrackMethod method) {
-  static Tracker detect = test::tracker_of(options_of(TrackMethod::Detect));
-  static Tracker hybrid = test::tracker_of(options_of(TrackMethod::Hybrid));
-  return method == TrackMethod::Detect ? detect : hybrid;
-}
-
 cv::Mat flat(double grey) {
   return {test::kGroundHeight, test::kGroundWidth, CV_8UC1, cv::Scalar(grey)};
 }
 
 class TrackerFaults : public testing::TestWithParam<TrackMethod> {
  protected:
-  Tracker& tracker() { return shared_tracker(GetParam()); }
+  Tracker& tracker() { return test::shared_tracker(GetParam()); }
   TrackState start() { return tracker().start(test::kGroundWidth, test::kGroundHeight); }
 
   /// After three frames of the target drifting 3 px a frame from its learned place; the last one at

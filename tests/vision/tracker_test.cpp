@@ -26,13 +26,6 @@ TrackState start_of(const Tracker& tracker) {
   return tracker.start(test::kGroundWidth, test::kGroundHeight);
 }
 
-/// One tracker for each method: what it saw before must not matter.
-Tracker& shared_tracker(TrackMethod method) {
-  static Tracker detect = test::tracker_of(options_of(TrackMethod::Detect));
-  static Tracker hybrid = test::tracker_of(options_of(TrackMethod::Hybrid));
-  return method == TrackMethod::Detect ? detect : hybrid;
-}
-
 /// A target that flies a loop, turns, nears and tilts; u and v to 4 px a frame.
 Homography flight(int k) {
   const double a = 0.08 * k;
@@ -45,7 +38,7 @@ Homography drift(int k) { return placed_at({150 + 3.0 * k, 130 + 1.0 * k}); }
 
 class TrackerOfPixels : public testing::TestWithParam<TrackMethod> {
  protected:
-  Tracker& tracker() { return shared_tracker(GetParam()); }
+  Tracker& tracker() { return test::shared_tracker(GetParam()); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, TrackerOfPixels,
@@ -186,6 +179,51 @@ TEST(Tracker, OfThePaperIsThePaperS) {
   EXPECT_GT(seen.trials, 0);
   EXPECT_LT(error_px(*seen.image_from_template, drift(3)), 1);
   EXPECT_EQ(seen.agreement.fine.blocks, 0);
+}
+
+/// More than half of the target covered.
+cv::Mat half_covered(const Homography& truth) {
+  cv::Mat image = planted(truth);
+  const Pixel first = truth * Pixel{0, 0};
+  image(cv::Rect(int(first.u), int(first.v), 88, test::kTargetHeight)).setTo(128);
+  return image;
+}
+
+TEST(Tracker, AsksForKeypointsAfterSeveralWeakAnswers) {
+  Tracker& tracker = test::shared_tracker(TrackMethod::Hybrid);
+  const Homography truth = placed_at({110.5, 90.5});
+  TrackState state = start_of(tracker);
+  state.last_seen = truth;
+  const int patience = tracker.options().weak_frames;
+  for (int k = 1; k <= 2 * patience; ++k) {
+    const Track seen = tracker.track(frame_of(half_covered(truth), k * kFrame_s), state);
+    ASSERT_TRUE(seen.found()) << k;
+    EXPECT_LT(error_px(*seen.image_from_template, truth), 0.5);
+    EXPECT_EQ(seen.next.weak_frames, k % patience);
+    state = seen.next;
+  }
+  const Track clear = tracker.track(frame_of(planted(truth), 1), state);
+  EXPECT_EQ(clear.next.weak_frames, 0);
+}
+
+TEST(Tracker, TakesTheBetterOfTwoAnswersWhenInDoubt) {
+  // What it follows is half covered; another one, whole, stands in view.
+  Tracker& tracker = test::shared_tracker(TrackMethod::Hybrid);
+  const Homography covered = placed_at({90.5, 80.5});
+  const Homography whole = placed_at({300, 210});
+  cv::Mat image = half_covered(covered);
+  test::plant(image, whole);
+  TrackState state = start_of(tracker);
+  state.last_seen = covered;
+  const int patience = tracker.options().weak_frames;
+  for (int k = 1; k <= patience; ++k) {
+    const Track seen = tracker.track(frame_of(image, k), state);
+    ASSERT_TRUE(seen.found()) << k;
+    const Homography& truth = k < patience ? covered : whole;
+    EXPECT_LT(error_px(*seen.image_from_template, truth), 0.5) << k;
+    EXPECT_EQ(seen.stage, k < patience ? TrackStage::Aligned : TrackStage::Detected) << k;
+    state = seen.next;
+  }
 }
 
 TEST(Tracker, GoesOnAfterItIsMoved) {

@@ -1,4 +1,4 @@
-// Where keypoints are looked for.
+// Where keypoints are looked for, on larger frames: longer than the fast tests may be.
 #include <algorithm>
 #include <vector>
 
