@@ -56,14 +56,14 @@ void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
                    "Camera's name in a ViSP file (default Camera)");
   verb->add_option("--size", a->size_m, "Width and height of the target, m, to log the pose")
       ->expected(2);
-  static const std::map<std::string, TrackMethod> kMethods{{"paper", TrackMethod::Paper},
-                                                           {"detect", TrackMethod::Detect},
-                                                           {"hybrid", TrackMethod::Hybrid}};
+  const std::map<std::string, TrackMethod> known_methods{{"paper", TrackMethod::Paper},
+                                                         {"detect", TrackMethod::Detect},
+                                                         {"hybrid", TrackMethod::Hybrid}};
   verb->add_option(
           "--method", a->method,
           "paper (SIFT, kd-tree and RANSAC in every frame), detect (fast keypoints in every "
           "frame) or hybrid (follows the pixels, keypoints on doubt; default)")
-      ->transform(CLI::CheckedTransformer(kMethods, CLI::ignore_case));
+      ->transform(CLI::CheckedTransformer(known_methods, CLI::ignore_case));
   add_run_options(*verb, a->run);
 }
 

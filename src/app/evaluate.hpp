@@ -7,7 +7,7 @@
 
 #include "kestrel/eval/evaluation.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own
 class App;
 }
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "kestrel/eval/track_method.hpp"
 #include "kestrel/io/csv.hpp"
 #include "kestrel/io/task_options.hpp"
@@ -68,7 +70,8 @@ std::string yaml_of(const std::vector<Setting>& settings) {
   }
   std::string all;
   for (const auto& [name, text] : sections) {
-    all += (all.empty() ? "" : ", ") + (name.empty() ? text : name + ": {" + text + "}");
+    if (!all.empty()) all += ", ";
+    all += name.empty() ? text : fmt::format("{}: {{{}}}", name, text);
   }
   return "track: {" + all + "}\n";
 }
@@ -134,7 +137,7 @@ std::vector<BenchMethod> swept_methods(const std::string& method,
     TrackOptions options = options_of(combination);
     own->choose(options);
     std::string name = method;
-    for (const auto& [key, value] : combination) name.append(" ").append(key + "=" + value);
+    for (const auto& [key, value] : combination) name += fmt::format(" {}={}", key, value);
     methods.push_back(track_method(name, options));
   }
   return methods;

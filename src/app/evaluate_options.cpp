@@ -16,8 +16,7 @@ void add_evaluate_options(CLI::App& verb, const std::shared_ptr<EvaluateArgument
   verb.add_option("--method", a->methods,
                   "How to track; again for more than one (default: all there are)")
       ->check(CLI::IsMember(methods))
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   verb.add_option(
           "--set", a->settings,
           "KEY=VALUE,VALUE,...: a key of the section 'track' of a task file (tasks/README.md "
@@ -25,8 +24,7 @@ void add_evaluate_options(CLI::App& verb, const std::shared_ptr<EvaluateArgument
           "combination")
       ->check(CLI::Validator([](std::string& setting) { return setting_fault(setting); },
                              "KEY=VALUE,...", "setting"))
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   verb.add_option("--output", a->output,
                   "Folder of the evaluation; one that is there is continued: finished runs of the "
                   "same program, settings and files are not run again (default runs/evaluate)");

@@ -47,13 +47,22 @@ double PlaceAgreement::alike_share() const {
   return coarse.visible > 0 ? (fine.alike_share() + coarse.alike_share()) / 2 : fine.alike_share();
 }
 
+double PlaceAgreement::evident_share() const {
+  const auto evident = [](const Agreement& a) {
+    constexpr int kFree = 4;
+    return a.visible > kFree ? std::max(a.alike - kFree, 0) / double(a.visible - kFree) : 0.0;
+  };
+  return coarse.visible > 0 ? (evident(fine) + evident(coarse)) / 2 : evident(fine);
+}
+
 double PlaceAgreement::better_half() const {
   return coarse.visible > 0 ? (fine.better_half + coarse.better_half) / 2 : fine.better_half;
 }
 
 bool is_accepted(const PlaceAgreement& a, const AgreementOptions& options) {
   return a.fine.alike + a.coarse.alike >= options.min_alike &&
-         a.alike_share() >= options.min_alike_share && a.better_half() >= options.min_better_half &&
+         a.evident_share() >= options.min_alike_share &&
+         a.better_half() >= options.min_better_half &&
          a.fine.visible_share() >= options.min_visible_share;
 }
 

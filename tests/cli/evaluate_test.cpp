@@ -39,7 +39,7 @@ class Evaluate : public ::testing::Test {
         << "images: frames/%04d.png\ntemplate_rect: 101 61 218 178\n";
   }
   Outcome evaluate(std::vector<std::string> words) const {
-    words.insert(words.begin(), "evaluate");
+    words.insert(words.begin(), {"evaluate", "--method", "paper"});
     return kestrel(words, folder_.path());
   }
   fs::path path(const std::string& name) const { return folder_.path() / name; }
@@ -106,12 +106,14 @@ TEST_F(Evaluate, TheNumberOfJobsChangesNothing) {
 TEST_F(Evaluate, CtrlCKeepsWhatIsFinishedAndTheNextStartGoesOn) {
   render("a_short", 3);
   render("b_long", 60);
-  const std::vector<std::string> words{"evaluate", "a_short",  "b_long", "--jobs",
-                                       "1",        "--output", "out"};
+  const std::vector<std::string> words{"evaluate", "--method", "paper",    "a_short", "b_long",
+                                       "--jobs",   "1",        "--output", "out"};
   Program program(words, folder_.path());
-  while (!fs::exists(path("out/runs/a_short/paper/run.json"))) {
+  const auto is_there = [&] { return fs::exists(path("out/runs/a_short/paper/run.json")); };
+  for (int waited_ms = 0; !is_there() && waited_ms < 60000; waited_ms += 5) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  ASSERT_TRUE(is_there());
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130);

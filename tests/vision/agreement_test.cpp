@@ -61,6 +61,15 @@ TEST(Agreement, OfTwoLevelsIsTheirMean) {
   EXPECT_DOUBLE_EQ(both.shown(), both.alike_share() * both.better_half());
 }
 
+TEST(Agreement, FourBlocksOfALevelAreNoEvidence) {
+  auto fine = blocks(12, 12, 0);
+  auto coarse = blocks(6, 2, 0);
+  const PlaceAgreement small{agreement(fine, {}), agreement(coarse, {})};
+  EXPECT_DOUBLE_EQ(small.evident_share(), (8.0 / 20 + 2.0 / 4) / 2);
+  auto few = blocks(4, 0, 0);
+  EXPECT_EQ((PlaceAgreement{agreement(few, {}), {}}.evident_share()), 0);
+}
+
 TEST(Agreement, OfNothingIsNotAccepted) {
   EXPECT_FALSE(accepts({}));
   EXPECT_FALSE(accepts(blocks(0, 0, 30)));

@@ -15,7 +15,7 @@ struct BlockLikeness {
 /// the whole does not survive.
 struct AgreementOptions {
   double alike_zncc = 0.7;          // a block above this shows what the template shows
-  double min_alike_share = 0.4;     // of the visible blocks, mean of the levels
+  double min_alike_share = 0.4;     // of the visible blocks, evident_share()
   double min_better_half = 0.7;     // mean correlation of the better half of the visible blocks
   double min_visible_share = 0.25;  // of the textured blocks
   int min_alike = 8;                // blocks of all levels: fewer can be alike by chance
@@ -46,6 +46,9 @@ struct PlaceAgreement {
 
   /// Mean of the levels that have visible blocks, 0 to 1.
   double alike_share() const;
+  /// The same without four blocks of each level, which the eight parameters of an alignment can
+  /// make alike whatever the image shows: below alike_share(), far below it for a small template.
+  double evident_share() const;
   double better_half() const;
   /// How much of the template is shown and how well, 0 to 1: the product of the two.
   double shown() const { return alike_share() * (better_half() > 0 ? better_half() : 0); }
