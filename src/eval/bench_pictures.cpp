@@ -95,6 +95,7 @@ std::vector<std::int64_t> worst_frames(const std::vector<FrameScore>& scores, in
     if (!is_near) taken.push_back(i);
   }
   std::vector<std::int64_t> frames;
+  frames.reserve(taken.size());
   for (const std::size_t i : taken) frames.push_back(scores[i].frame);
   return frames;
 }

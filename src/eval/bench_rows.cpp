@@ -54,7 +54,9 @@ BenchFrame frame_of(const std::string& line) {
   f.answer.state = std::string(fields[1]);
   if (!fields[2].empty()) {
     Homography H;
-    for (int i = 0; i < 9; ++i) H.H(i / 3, i % 3) = value(fields[std::size_t(2 + i)]);
+    for (std::size_t i = 0; i < 9; ++i) {
+      H.H(Eigen::Index(i / 3), Eigen::Index(i % 3)) = value(fields[2 + i]);
+    }
     f.answer.image_from_template = H;
   }
   f.answer.window = {value(fields[11]), value(fields[12]), value(fields[13]), value(fields[14])};

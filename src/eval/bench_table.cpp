@@ -125,6 +125,7 @@ std::vector<RunEntry> setting_entries(const std::vector<BenchScore>& scores) {
     }
   }
   std::vector<RunEntry> entries;
+  entries.reserve(keys.size());
   for (const std::string& key : keys) entries.push_back(setting_entry(key));
   return entries;
 }

@@ -67,6 +67,7 @@ OutlineOptions read_outline(const Section& s) {
 template <class Value, std::size_t N>
 std::vector<std::pair<std::string, Value>> words(const std::array<Value, N>& all) {
   std::vector<std::pair<std::string, Value>> named;
+  named.reserve(N);
   for (const Value one : all) named.emplace_back(name(one), one);
   return named;
 }

@@ -7,7 +7,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "block_kernels.hpp"
+#include "align/block_kernels.hpp"
+#include "align/normal_equations.hpp"
+#include "align/warp_reach.hpp"
 
 namespace kestrel {
 namespace {
@@ -72,112 +74,6 @@ kernel::Image sampled(const PyramidLevel& level) {
           float(level.top) + kInside,
           float(level.right - 1) - kInside,
           float(level.bottom - 2) - kInside};
-}
-
-double image_norm2(const kernel::BlockSums& sums) {
-  return double(sums.image_squared) - double(sums.image) * sums.image / kPixels;
-}
-
-double zncc(const TemplateBlock& block, const kernel::BlockSums& sums) {
-  const double norm2 = image_norm2(sums);
-  // Below the rounding of eight bits there is no picture.
-  if (norm2 < kPixels / 12.0) return 0;
-  return sums.texture_image / std::sqrt(norm2 * block.texture_norm2);
-}
-
-/// Normal equations of one step, weighted by the residuals' variance and the robust weights.
-struct Normal {
-  Matrix8d information = Matrix8d::Zero();
-  Vector8d gradient = Vector8d::Zero();
-  double residual = 0;  // weighted sum of squared residuals over their variance
-  double freedom = 0;   // weighted number of residuals
-  int blocks = 0;       // that take part
-  double shown = 0;     // share of the template's texture that the image shows, 0 to 1
-};
-
-Normal normal_equations(const BlockLevel& level, const std::vector<kernel::BlockSums>& sums,
-                        const AlignOptions& options, const BlockOptions& noise) {
-  Normal n;
-  double all = 0;
-  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
-    const TemplateBlock& block = level.blocks[i];
-    all += std::sqrt(block.texture_norm2);
-    if (sums[i].is_visible == 0) continue;
-    const double c = zncc(block, sums[i]);
-    if (c <= 0) continue;
-    n.shown += std::sqrt(block.texture_norm2) * std::min(c * c, 1.0);
-    const double gain = double(sums[i].texture_image) / block.texture_norm2;
-    const double model = noise.model_error * gain;
-    const double variance =
-        noise.noise_grey * noise.noise_grey + model * model * block.texture_norm2 / kPixels;
-    const double root = options.weight_scale / (options.weight_scale + 1 - std::min(c * c, 1.0));
-    const double weight = root * root / variance;
-    n.information += weight * gain * gain * block.information;
-    const Eigen::Map<const Eigen::Matrix<float, 8, 1>> g(sums[i].derivatives);
-    n.gradient += weight * gain * g.cast<double>();
-    n.residual += weight * image_norm2(sums[i]) * (1 - std::min(c * c, 1.0));
-    n.freedom += root * root * (kPixels - 2);
-    ++n.blocks;
-  }
-  if (all > 0) n.shown /= all;
-  return n;
-}
-
-/// Solution for the first parameters of warp(), the others zero; empty when they are not
-/// determined.
-std::optional<Vector8d> solved(const Normal& n, int parameters) {
-  constexpr double kDamping = 1e-6;
-  Matrix8d A = n.information;
-  for (int k = 0; k < 8; ++k) {
-    if (k < parameters) {
-      A(k, k) *= 1 + kDamping;
-      continue;
-    }
-    A.row(k).setZero();
-    A.col(k).setZero();
-    A(k, k) = 1;
-  }
-  Vector8d b = n.gradient;
-  b.tail(8 - parameters).setZero();
-  const Eigen::LLT<Matrix8d> factored(A);
-  if (factored.info() != Eigen::Success) return std::nullopt;
-  const Vector8d step = factored.solve(b);
-  return step.allFinite() ? std::optional<Vector8d>(step) : std::nullopt;
-}
-
-/// Largest distance a step moves a corner of the template, in coordinates of warp().
-double reach(const Eigen::Matrix3d& W, const Eigen::Matrix3d& scaled,
-             const TemplateBlocks& blocks) {
-  double farthest = 0;
-  for (const Pixel& corner : template_corners(blocks.width, blocks.height)) {
-    const Eigen::Vector3d p = scaled * Eigen::Vector3d(corner.u, corner.v, 1);
-    const Eigen::Vector3d q = W * p;
-    farthest = std::max(farthest, (q.head<2>() / q.z() - p.head<2>()).norm());
-  }
-  return farthest;
-}
-
-/// Derivatives of the corners in the image, px, by the parameters of a warp before H.
-Matrix8d corner_derivatives(const Homography& H, const Eigen::Matrix3d& scaled,
-                            const TemplateBlocks& blocks) {
-  const Eigen::Matrix3d G = H.H * scaled.inverse();
-  Matrix8d J;
-  int row = 0;
-  for (const Pixel& corner : template_corners(blocks.width, blocks.height)) {
-    const Eigen::Vector3d p = scaled * Eigen::Vector3d(corner.u, corner.v, 1);
-    const double x = p.x();
-    const double y = p.y();
-    Eigen::Matrix<double, 2, 8> motion;           // of the point, by the parameters of warp()
-    motion << 1, 0, x, -y, x, y, -x * x, -x * y,  //
-        0, 1, y, x, -y, x, -x * y, -y * y;
-    const Eigen::Vector3d q = G * p;
-    Eigen::Matrix2d D;  // of the image point by the point
-    D << G(0, 0) - G(2, 0) * q.x() / q.z(), G(0, 1) - G(2, 1) * q.x() / q.z(),
-        G(1, 0) - G(2, 0) * q.y() / q.z(), G(1, 1) - G(2, 1) * q.y() / q.z();
-    J.middleRows<2>(row) = D * motion / q.z();
-    row += 2;
-  }
-  return J;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "block_kernels.hpp"
+#include "align/block_kernels.hpp"
 
 namespace kestrel {
 namespace {

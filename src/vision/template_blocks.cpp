@@ -10,7 +10,7 @@
 
 #include "kestrel/vision/image_pyramid.hpp"
 
-#include "block_kernels.hpp"
+#include "align/block_kernels.hpp"
 
 namespace kestrel {
 namespace {
