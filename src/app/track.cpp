@@ -86,6 +86,8 @@ class TrackRun {
     s.add("frames", frames_);
     s.add("frames skipped", std::int64_t(source.skipped().size()));
     s.add("found", frames_ > 0 ? 100.0 * double(found_) / double(frames_) : 0.0, "%");
+    s.add("mean confidence", mean(confidence_));
+    s.add("coasting", frames_ > 0 ? 100.0 * double(coasting_) / double(frames_) : 0.0, "%");
     s.add("mean keypoints", mean(keypoints_));
     s.add("mean matches", mean(matches_));
     s.add("mean inliers", mean(inliers_));
@@ -110,6 +112,8 @@ class TrackRun {
   void count(const Track& seen) {
     ++frames_;
     found_ += seen.found() ? 1 : 0;
+    coasting_ += seen.status == TrackStatus::Coasting ? 1 : 0;
+    confidence_ += seen.confidence;
     keypoints_ += seen.keypoints;
     matches_ += seen.matches;
     inliers_ += double(seen.inliers.size());
@@ -141,6 +145,8 @@ class TrackRun {
   TrackEstimate estimates_;
   std::int64_t frames_ = 0;
   std::int64_t found_ = 0;
+  std::int64_t coasting_ = 0;
+  double confidence_ = 0;
   double keypoints_ = 0;
   double matches_ = 0;
   double inliers_ = 0;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "kestrel/io/run_figures.hpp"
 #include "kestrel/io/svg_strip.hpp"
 
@@ -88,15 +91,51 @@ std::string window(const LogFile& log) {
   return svg_plot(plot);
 }
 
+std::string confidence(const LogFile& log) {
+  Plot plot = time_plot("Confidence, and blocks of the template that are alike", "share");
+  plot.series = {
+      {"confidence", times(log), column(log, [](const LogRow& r) { return r.confidence; })},
+      {"alike", times(log), column(log, [](const LogRow& r) { return r.alike_share; })}};
+  plot.height_px = 230;
+  return svg_plot(plot);
+}
+
+std::string deviation(const LogFile& log) {
+  Plot plot = time_plot("Uncertainty of the corners (standard deviation)", "px");
+  plot.series = {{"", times(log), column(log, &LogRow::noise, [](const CornerNoise& noise) {
+                    double sum = 0;
+                    for (const auto& corner : noise) sum += corner[0] + corner[2];
+                    return std::sqrt(sum / 8);
+                  })}};
+  plot.height_px = 230;
+  return svg_plot(plot);
+}
+
+/// The plots of what a tracker counts; of keypoints where any were looked for.
+std::vector<std::string> figures(const LogFile& log, const RunView& view) {
+  std::vector<std::string> all{trajectories(log, view), strip(log), confidence(log),
+                               deviation(log)};
+  const auto any = [&](int LogRow::*count) {
+    return std::any_of(log.rows.begin(), log.rows.end(),
+                       [&](const LogRow& row) { return row.*count > 0; });
+  };
+  if (any(&LogRow::matches)) all.push_back(counts(log));
+  if (any(&LogRow::keypoints)) all.push_back(keypoints(log));
+  if (any(&LogRow::trials)) all.push_back(trials(log));
+  all.push_back(window(log));
+  return all;
+}
+
 }  // namespace
 
 std::vector<ReportSection> track_sections(const LogFile& log, const RunView& view) {
-  return {{"What was seen",
-           "The path of the template's four corners through the image, in which frames the tracker "
-           "had an answer, and what it rests on: keypoints of the processed window, those that "
-           "match the template, those that agree on one homography.",
-           {trajectories(log, view), strip(log), counts(log), keypoints(log), trials(log),
-            window(log)}}};
+  return {
+      {"What was seen",
+       "The path of the template's four corners through the image, in which frames the tracker "
+       "had an answer, and what it rests on: the share of the template that the pixels show, and, "
+       "where keypoints were looked for, how many there are in the processed window, match the "
+       "template and agree on one homography.",
+       figures(log, view)}};
 }
 
 }  // namespace kestrel
