@@ -14,7 +14,8 @@ namespace kestrel::test {
 
 /// Grey value of the paint at a point of the plane, m: noise of several sizes, smooth.
 inline double paint(double x, double y) {
-  // Each size has grains of its own: with the same ones the paint would look alike at half the size.
+  // Each size has grains of its own: with the same ones the paint would look alike at half the
+  // size.
   std::uint64_t octave = 0;
   const auto grain = [&octave](std::int64_t i, std::int64_t j) {
     std::uint64_t h = std::uint64_t(i) * 0x9e3779b97f4a7c15ull ^

@@ -5,9 +5,9 @@
 namespace kestrel::kernel {
 namespace {
 
-typedef float Floats __attribute__((vector_size(32)));
-typedef std::int32_t Ints __attribute__((vector_size(32)));
-typedef std::uint32_t Words __attribute__((vector_size(32)));
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using Words = std::uint32_t __attribute__((vector_size(32)));
 
 constexpr int kLanes = 8;
 static_assert(kBlockSide == kLanes, "one row of a block is one vector");
