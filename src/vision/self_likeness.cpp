@@ -12,6 +12,9 @@ namespace {
 /// left to compare.
 constexpr int kEighths = 4;
 
+/// Starts that are aligned; a third of all. Bounds the time to learn a template.
+constexpr std::size_t kMaxStarts = 96;
+
 /// An answer this near to the picture itself, as a share of its longer side, is the picture itself.
 constexpr double kSamePlaceShare = 0.06;
 
@@ -39,6 +42,26 @@ double apart(const Homography& a, const Homography& b, const TemplateBlocks& blo
   return farthest;
 }
 
+/// The shifts and turns to align from: of all, those at which the coarsest level is most alike.
+std::vector<Homography> starts(const TemplateBlocks& blocks, Aligner& aligner,
+                               const ImagePyramid& pyramid) {
+  std::vector<Place> all;
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    for (int j = -kEighths; j <= kEighths; ++j) {
+      for (int i = -kEighths; i <= kEighths; ++i) {
+        if (quarters == 0 && i == 0 && j == 0) continue;
+        const Homography H = moved(blocks, quarters, i * blocks.width / 8, j * blocks.height / 8);
+        all.push_back({H, aligner.likeness(pyramid, H)});
+      }
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Place& a, const Place& b) { return a.share > b.share; });
+  std::vector<Homography> best;
+  for (std::size_t i = 0; i < std::min(all.size(), kMaxStarts); ++i) best.push_back(all[i].where);
+  return best;
+}
+
 /// The most alike of the places, those that are the same once.
 SelfLikeness distinct(std::vector<Place> places, const TemplateBlocks& blocks) {
   const double near = kSamePlaceShare * std::max(blocks.width, blocks.height);
@@ -64,22 +87,14 @@ SelfLikeness self_likeness(const cv::Mat& picture, const TemplateBlocks& blocks,
   Aligner aligner(blocks, options);
   ImagePyramid pyramid;
   pyramid.look(picture, {0, 0, blocks.width, blocks.height}, aligner.levels(), options.simd);
+  const double near = kSamePlaceShare * std::max(blocks.width, blocks.height);
   std::vector<Place> places;
-  for (int quarters = 0; quarters < 4; ++quarters) {
-    for (int j = -kEighths; j <= kEighths; ++j) {
-      for (int i = -kEighths; i <= kEighths; ++i) {
-        if (quarters == 0 && i == 0 && j == 0) continue;
-        const auto found = aligner.align(
-            pyramid, moved(blocks, quarters, i * blocks.width / 8, j * blocks.height / 8));
-        if (!found || !found->is_accepted) continue;
-        if (apart(found->image_from_template, Homography(), blocks) <=
-            kSamePlaceShare * std::max(blocks.width, blocks.height)) {
-          continue;
-        }
-        places.push_back({found->image_from_template,
-                          found->agreement.alike_share() * found->agreement.fine.visible_share()});
-      }
-    }
+  for (const Homography& start : starts(blocks, aligner, pyramid)) {
+    const auto found = aligner.align(pyramid, start);
+    if (!found || !found->is_accepted) continue;
+    if (apart(found->image_from_template, Homography(), blocks) <= near) continue;
+    places.push_back({found->image_from_template,
+                      found->agreement.alike_share() * found->agreement.fine.visible_share()});
   }
   return distinct(std::move(places), blocks);
 }
