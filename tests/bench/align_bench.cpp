@@ -21,7 +21,7 @@ FrameWork begun(const BenchMethod& method, const BenchFrames& all) {
 
 /// A tracker on the whole sequence, its start included, beside the hybrid.
 void tracked(benchmark::State& state, const std::string& name) {
-  const BenchFrames all = whole_frames();
+  const BenchFrames& all = whole_frames();
   const BenchMethod theirs = bench_methods({name}).front();
   const BenchMethod ours = bench_methods({"hybrid"}).front();
   time_beside(

@@ -39,7 +39,7 @@ PixelBox part_of(const BenchFrames& all, std::size_t k, Part part) {
 }
 
 void pyramid(benchmark::State& state, Part part) {
-  const BenchFrames all = whole_frames();
+  const BenchFrames& all = whole_frames();
   ImagePyramid made;
   time_frames(state, all.frames.size(), nothing, [&](std::size_t k) {
     made.look(all.frames[k].gray, part_of(all, k, part), kPyramidLevels, Simd::Auto);
@@ -51,7 +51,7 @@ void pyramid(benchmark::State& state, Part part) {
 
 /// The same means of four pixels by OpenCV.
 void pyramid_opencv(benchmark::State& state) {
-  const BenchFrames all = whole_frames();
+  const BenchFrames& all = whole_frames();
   ImagePyramid ours;
   std::vector<cv::Mat> theirs(kPyramidLevels - 1);
   time_beside(
@@ -74,7 +74,7 @@ void pyramid_opencv(benchmark::State& state) {
 
 /// A learned template, an aligner, and the pyramid of the frame whose turn it is.
 struct Bed {
-  BenchFrames all = whole_frames();
+  const BenchFrames& all = whole_frames();
   Template model{all.frames[0].gray, all.template_px, {}};
   Aligner aligner{model.blocks(), {}};
   ImagePyramid pyramid;
@@ -162,7 +162,10 @@ void agreed(benchmark::State& state) {
 }
 
 void stage(const char* name, void (*bench)(benchmark::State&)) {
-  benchmark::RegisterBenchmark(name, bench)->UseManualTime()->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark(name, bench)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond)
+      ->Iterations(kCalls);
 }
 
 }  // namespace

@@ -43,9 +43,7 @@ Homography shifted(double du, double dv, const Homography& H) {
   return {shift * H.H};
 }
 
-}  // namespace
-
-BenchFrames whole_frames() {
+BenchFrames rendered() {
   const StressSequence sequence = stress_sequence({"nominal", "graffiti", 60, 1});
   BenchFrames result;
   result.template_px = sequence.sequence.template_px;
@@ -60,8 +58,7 @@ BenchFrames whole_frames() {
   return result;
 }
 
-BenchFrames cropped_frames() {
-  BenchFrames result = whole_frames();
+BenchFrames cropped(BenchFrames result) {
   for (std::size_t k = 0; k < result.frames.size(); ++k) {
     cv::Mat& gray = result.frames[k].gray;
     const Pixel middle = result.truth[k] * Pixel{(result.template_px.width - 1) / 2,
@@ -75,6 +72,18 @@ BenchFrames cropped_frames() {
     result.template_px.v -= top;
   }
   return result;
+}
+
+}  // namespace
+
+const BenchFrames& whole_frames() {
+  static const BenchFrames kFrames = rendered();
+  return kFrames;
+}
+
+const BenchFrames& cropped_frames() {
+  static const BenchFrames kFrames = cropped(whole_frames());
+  return kFrames;
 }
 
 void time_frames(benchmark::State& state, std::size_t frames, const FrameWork& prepare,

@@ -19,11 +19,15 @@ struct BenchFrames {
   PixelBox template_px;           // in the first frame
 };
 
-/// 60 frames of 640x480 px of the class "nominal" with the picture "graffiti" (bench/stress.hpp).
-BenchFrames whole_frames();
+/// 60 frames of 640x480 px of the class "nominal" with the picture "graffiti" (bench/stress.hpp),
+/// rendered once.
+const BenchFrames& whole_frames();
 
 /// The same, each cut to 256x256 px around the target.
-BenchFrames cropped_frames();
+const BenchFrames& cropped_frames();
+
+/// Timed calls of a stage: five passes over the frames.
+inline constexpr int kCalls = 300;
 
 /// One call for frame k.
 using FrameWork = std::function<void(std::size_t k)>;

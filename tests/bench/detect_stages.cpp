@@ -19,7 +19,7 @@
 namespace kestrel::test {
 namespace {
 
-using Load = BenchFrames (*)();
+using Load = const BenchFrames& (*)();
 
 PixelBox whole(const Frame& frame) {
   return {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
@@ -28,7 +28,7 @@ PixelBox whole(const Frame& frame) {
 void nothing(std::size_t) {}
 
 void sift(benchmark::State& state, Load load) {
-  const BenchFrames all = load();
+  const BenchFrames& all = load();
   FastSift detector({});
   double keypoints = 0;
   double calls = 0;
@@ -40,7 +40,7 @@ void sift(benchmark::State& state, Load load) {
 }
 
 void match(benchmark::State& state, Load load) {
-  const BenchFrames all = load();
+  const BenchFrames& all = load();
   const Template model(all.frames[0].gray, all.template_px, {});
   FastSift detector({});
   FeatureMatcher matcher(model.features(), {});
@@ -64,7 +64,7 @@ void match(benchmark::State& state, Load load) {
 }
 
 void fit(benchmark::State& state, Load load) {
-  const BenchFrames all = load();
+  const BenchFrames& all = load();
   const Template model(all.frames[0].gray, all.template_px, {});
   FastSift detector({});
   FeatureMatcher matcher(model.features(), {});
@@ -85,7 +85,7 @@ void fit(benchmark::State& state, Load load) {
 
 /// SIFT, match, fit, alignment of every hypothesis, verdict.
 void chain(benchmark::State& state, Load load) {
-  const BenchFrames all = load();
+  const BenchFrames& all = load();
   const TrackOptions options;
   const Template model(all.frames[0].gray, all.template_px, options);
   TargetSearch search(model, options);
@@ -101,7 +101,7 @@ void chain(benchmark::State& state, Load load) {
 
 /// A tracker that looks at the whole image in every frame, beside the chain.
 void peer(benchmark::State& state, Load load) {
-  const BenchFrames all = load();
+  const BenchFrames& all = load();
   const TrackOptions options;
   const Template model(all.frames[0].gray, all.template_px, options);
   TargetSearch search(model, options);
@@ -109,11 +109,11 @@ void peer(benchmark::State& state, Load load) {
   const BenchTracker track = method.learn(all.frames[0].gray, all.template_px);
   double found = 0;
   double calls = 0;
-  const FrameWork theirs = [&](std::size_t k) {
+  FrameWork theirs = [&](std::size_t k) {
     found += track(all.frames[k]).image_from_template ? 1 : 0;
     ++calls;
   };
-  const FrameWork ours = [&](std::size_t k) {
+  FrameWork ours = [&](std::size_t k) {
     const Frame& frame = all.frames[k];
     benchmark::DoNotOptimize(search.detect(frame, whole(frame), std::nullopt).is_accepted());
   };
@@ -125,8 +125,7 @@ void peer(benchmark::State& state, Load load) {
 void add(const std::string& name, void (*bench)(benchmark::State&, Load), Load load) {
   auto* added = benchmark::RegisterBenchmark(
       name.c_str(), [bench, load](benchmark::State& state) { bench(state, load); });
-  added->UseManualTime()->Unit(benchmark::kMicrosecond);
-  if (bench == peer) added->Iterations(1);
+  added->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(bench == peer ? 1 : kCalls);
 }
 
 }  // namespace
