@@ -12,7 +12,7 @@
 #include "kestrel/vision/image_pyramid.hpp"
 #include "kestrel/vision/template.hpp"
 
-#include "../../src/vision/block_kernels.hpp"
+#include "../../src/vision/align/block_kernels.hpp"
 #include "bench/bench_frames.hpp"
 
 namespace kestrel::test {
