@@ -45,6 +45,22 @@ std::string describe(const Camera& camera) {
   return text;
 }
 
+std::string describe(const TrackOptions& track) {
+  switch (track.method) {
+    case TrackMethod::Paper:
+      return "paper: SIFT, kd-tree and RANSAC in every frame, in a window that doubles on each "
+             "miss";
+    case TrackMethod::Detect:
+      return fmt::format("detect: keypoints in every frame, checked on the pixels; window: {}",
+                         name(track.window));
+    case TrackMethod::Hybrid:
+      break;
+  }
+  return fmt::format(
+      "hybrid: follows the pixels, keypoints on doubt and on loss; window: {}; lost after {} s",
+      name(track.window), track.coast_s);
+}
+
 std::string describe_goal(const Task& task) {
   const Eigen::Vector3d& t = task.goal.translation;
   return fmt::format(
@@ -90,6 +106,7 @@ void check_task(const Section& root) {
   if (e.source != "simulation") say_template(e);
   say("camera", describe(e.task.camera));
   say("mount", describe(e.task.body_from_camera));
+  say("tracker", describe(e.task.track));
   say("goal", describe_goal(e.task));
   say("law",
       fmt::format("{} interaction matrix, gain {} 1/s, over {}", name(e.task.servo.interaction),
