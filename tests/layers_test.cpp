@@ -27,7 +27,8 @@ const std::map<std::string, Names> kMayInclude = {
     {"io", {"geometry", "vision", "servo", "vehicle", "loop"}},
     {"sim", {"geometry", "vision", "servo", "vehicle", "loop"}},
     {"eval", {"geometry", "vision", "servo", "vehicle", "loop", "io"}},
-    {"app", {"geometry", "vision", "servo", "vehicle", "loop", "link", "io", "sim", "eval"}},
+    {"lab", {"geometry", "vision", "servo", "vehicle", "loop", "io", "sim", "eval"}},
+    {"app", {"geometry", "vision", "servo", "vehicle", "loop", "link", "io", "sim", "eval", "lab"}},
 };
 
 /// An include that starts like this -> layers or files (below src/ or include/kestrel/) that may
@@ -42,7 +43,7 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
     {"arpa/", {"link"}},
     {"netdb.h", {"link"}},
     {"dc1394/", {"io/dc1394_camera"}},
-    {"nlohmann/", {"io", "link", "eval", "app"}},
+    {"nlohmann/", {"io", "link", "eval", "lab", "app"}},
     {"opencv2/", {"vision", "loop", "io", "sim", "app"}},
 };
 
