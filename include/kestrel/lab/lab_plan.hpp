@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kestrel/lab/camera_run.hpp"
+#include "kestrel/lab/start_poses.hpp"
 
 namespace kestrel {
 
@@ -47,10 +48,10 @@ struct PlannedBasin {
   std::string name;
   std::string scenario;           // target and goal
   std::vector<std::string> laws;  // empty: all
-  std::vector<GoalFromCamera> starts;
+  std::vector<StartPose> starts;
 };
 
-/// Gain and delay margins.
+/// Gain and delay margins (lab/margins) from a scenario.
 struct PlannedMargin {
   std::string scenario;
   std::vector<std::string> laws;  // empty: all
@@ -72,6 +73,8 @@ struct LabPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedBasin> basins;
   std::vector<PlannedMargin> margins;
+  /// Runs of the helicopter benchmark by their ids' beginnings ("H0", "H0/vp4_mean"), or "all".
+  std::vector<std::string> helicopter;
   /// Settled runs of maps and basins end when |e| has stayed below this; 0: they run all steps.
   double settled_error = 1e-5;
 
@@ -79,6 +82,12 @@ struct LabPlan {
   /// name given twice, one that is not there, a value out of range.
   void check() const;
 };
+
+/// The scenario of that name. Throws std::invalid_argument when the plan has none.
+const Scenario& scenario_named(const LabPlan& plan, const std::string& name);
+
+/// The laws of these labels in the plan's order; all when there are no labels.
+std::vector<PlannedLaw> laws_labelled(const LabPlan& plan, const std::vector<std::string>& labels);
 
 /// The keys of conditions that a setting may take: gain_per_s, rate_hz, steps, depth_factor,
 /// focal_factor, principal_u_px, principal_v_px, noise_px, seed, delay_frames, limit_linear_m_s,
