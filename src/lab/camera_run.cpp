@@ -158,7 +158,6 @@ void RunRules::check() const {
 void CameraSetup::check() const {
   scenario.check();
   camera.check();
-  law.check();
   conditions.check();
   rules.check();
 }
