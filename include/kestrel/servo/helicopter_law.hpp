@@ -1,35 +1,15 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include "kestrel/geometry/attitude.hpp"
 #include "kestrel/geometry/transform.hpp"
 #include "kestrel/geometry/twist.hpp"
 #include "kestrel/servo/control_law.hpp"
+#include "kestrel/servo/helicopter_variant.hpp"
+#include "kestrel/servo/latency.hpp"
 
 namespace kestrel {
-
-/// How a law for a free camera is put on a helicopter, which can be asked for four velocities only:
-/// forward, right, down (of the levelled body with its heading) and the yaw rate.
-enum class HelicopterVariant {
-  Vp4,     // "vp4": features levelled by the attitude, all four velocities from the image
-  Raw4,    // "raw4": the same on the features as they are; tilt is answered as if it were an error
-  Drop6,   // "drop6": all six velocities from the image, roll and pitch rates thrown away
-  Vp3Hh,   // "vp3_hh": levelled, three translations from the image, heading held by the compass
-  Vp3,     // "vp3": levelled, three translations, no yaw
-  Mejias,  // "mejias": levelled, centre of gravity and size (the law "decoupled"), no yaw
-};
-
-/// All variants in the order of the enumeration.
-const std::vector<HelicopterVariant>& all_helicopter_variants();
-
-/// The name a user writes, in quotes above.
-const char* name(HelicopterVariant variant);
-
-/// The variant of that name; empty when there is none.
-std::optional<HelicopterVariant> helicopter_variant_named(std::string_view name);
 
 /// Parameters of a law on a helicopter.
 struct HelicopterLawOptions {
@@ -49,7 +29,11 @@ struct HelicopterLawInput {
   LawInput camera;
   Mount body_from_camera;
   Attitude attitude;            // of the helicopter when the image was taken, as far as it is known
-  double goal_heading_rad = 0;  // psi*, of "vp3_hh"
+  double heading_rad = 0;       // psi, now: the compass is not as old as the image; of "vp3_hh"
+  double goal_heading_rad = 0;  // psi*
+  /// How the camera that the variant looks through has moved since the image was taken: given, the
+  /// features are predicted over it (see latency.hpp), with their depth from the area.
+  std::optional<CameraMotion> now_from_then;
 };
 
 /// What a law on a helicopter answers.
@@ -69,8 +53,10 @@ struct HelicopterLawAnswer {
 ///   vp3, mejias: -(L^ cVb S3)^+ lambda e;
 ///   vp3_hh: r = -lambda_psi wrap(psi - psi*), -(A3)^+ (lambda e + a_r r), [A3 a_r] = L^ cVb S4.
 /// Laws that tell translation from rotation by themselves (2.5d, pbvs_ct, pbvs_co, screw) need no
-/// a_r r: the turn is not mistaken for a translation. The point laws take a_r from their own L^,
-/// the others from L(s, Z). Pure, and never throws for what a frame may bring.
+/// a_r r: they do not take the turn for a translation. Where the law inside has no L^ of its own
+/// for points, A is that of L(s, Z). A refusal of the law is passed on; NotFinite also for an
+/// attitude or heading that is not, Unreachable for a mount that is no rotation, Singular when the
+/// prediction puts a point behind the camera. Pure, and never throws for what a frame may bring.
 HelicopterLawAnswer helicopter_law(const HelicopterLawInput& input,
                                    const HelicopterLawOptions& options, const LawState& state = {});
 
