@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "kestrel/lab/camera_run.hpp"
+#include "kestrel/lab/pixel_noise.hpp"
+#include "kestrel/servo/control_law.hpp"
+
+namespace kestrel {
+
+/// What the law is told of the true world: the points with their noise, mis-calibrated and late,
+/// depths and translations with their factor, and the pose or homography that these points give.
+class LawSight {
+ public:
+  explicit LawSight(const CameraSetup& setup);
+
+  /// Takes the image of the next step, the true points and pose given; the noise is drawn here.
+  /// motion: the twist integrated from the step before to this one (zero for the first).
+  void look(const std::vector<Feature>& points, const TargetPose& camera_from_target,
+            const Vector6d& motion);
+
+  /// What the law is told at the step last looked at: the image of step max(0, k - delay), and the
+  /// camera's motion between that image and the one used a step before.
+  const LawInput& told() const;
+
+  /// s* in the true camera: where the points are when the law sees no error, (x0 y0 x1 y1 ...).
+  const Eigen::VectorXd& reached() const { return reached_; }
+
+ private:
+  ImagePoint believed(const ImagePoint& point) const;
+  TargetPose scaled(TargetPose pose) const;
+  void add_geometry(LawInput& input, const TargetPose& true_pose) const;
+
+  CameraSetup setup_;
+  PixelNoise noise_;
+  std::vector<Feature> desired_;
+  TargetPose goal_;  // as believed
+  Eigen::VectorXd reached_;
+  std::vector<LawInput> images_;  // the last delay + 1, a ring
+  int step_ = -1;
+};
+
+}  // namespace kestrel

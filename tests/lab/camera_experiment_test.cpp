@@ -1,0 +1,3 @@
+#include "kestrel/lab/camera_experiment.hpp"
+
+#include <gtest/gtest.h>

@@ -1,0 +1,3 @@
+#include "kestrel/lab/camera_trace.hpp"
+
+#include <gtest/gtest.h>

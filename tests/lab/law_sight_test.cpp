@@ -1,0 +1,3 @@
+#include "kestrel/lab/law_sight.hpp"
+
+#include <gtest/gtest.h>

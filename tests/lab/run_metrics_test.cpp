@@ -1,0 +1,3 @@
+#include "kestrel/lab/run_metrics.hpp"
+
+#include <gtest/gtest.h>
