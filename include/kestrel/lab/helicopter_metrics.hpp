@@ -5,60 +5,74 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "kestrel/vehicle/velocity_command.hpp"
+#include "kestrel/lab/helicopter_run.hpp"
 
 namespace kestrel {
 
-/// One frame of a helicopter run, the truth of it: everything a plot or a figure needs.
-struct HelicopterStep {
-  double time_s = 0;
-  Eigen::Vector3d camera_m = Eigen::Vector3d::Zero();  // camera in the (moving) target's world, NED
-  double position_error_m = 0;                         // of the levelled camera to its goal
-  double heading_error_rad = 0;
-  double error_norm = 0;       // |e| of the true points, levelled, normalised plane
-  double image_margin_px = 0;  // of the point nearest to the border; negative: out of it
-  VelocityCommand wanted;      // before limits and failsafe
-  VelocityCommand sent;
-  std::optional<double> condition;  // of the law, where it gave an answer
-  bool seen = true;
-  bool refused = false;
-  bool saturated = false;  // sent is not what was wanted
+/// The figures of one helicopter run, of the true world at its frames. Lengths m, angles rad, times
+/// s; the path is the camera's, relative to the target.
+struct HelicopterMetrics {
+  std::optional<double> settle_s;  // after it position and heading stay within tolerance
+  std::optional<double> settle_position_s;
+  std::optional<double> settle_heading_s;
+  double path_m = 0;
+  std::optional<double> path_ratio;  // over the straight line from start to goal
+  double final_position_m = 0;
+  double final_heading_rad = 0;  // absolute
+  double final_error = 0;        // |e|
+  double iae_s = 0;              // integral of |e|
+  double ise_s = 0;
+  double itae_s2 = 0;
+  double position_iae_m_s = 0;  // integral of the position error
+  double effort_m = 0;          // integral of the speed that was sent
+  double yaw_effort_rad = 0;
+  double saturated_s = 0;
+  double refused_s = 0;
+  double unseen_s = 0;
+  double largest_speed_m_s = 0;  // sent
+  double largest_yaw_rate_rad_s = 0;
+  double largest_tilt_rad = 0;
+  double overshoot_m = 0;         // largest way beyond the goal, along the line from start to goal
+  double smallest_margin_px = 0;  // to the image's border; negative: out of it
+  std::optional<double> first_out_of_view_s;
+  std::optional<double> largest_condition;  // empty: singular, or none
+  std::optional<double> smallest_singular_value;
+  double steady_position_rms_m = 0;  // over the last third of the frames, as all below
+  double steady_heading_rms_rad = 0;
+  double steady_forward_std_m_s = 0;  // standard deviations of the command wanted
+  double steady_right_std_m_s = 0;
+  double steady_down_std_m_s = 0;
+  double steady_yaw_rate_std_rad_s = 0;
 };
 
-/// What the figures are measured against.
-struct HelicopterMeterOptions {
-  double frame_s = 1.0 / 30;
-  double position_tolerance_m = 0.10;
-  double heading_tolerance_rad = 0.034906585039886591;
-  double steady_share = 1.0 / 3;  // of the run, at its end: the steady state
-};
+/// The figures by the names of their columns, in the order of the struct.
+std::vector<std::pair<std::string, std::optional<double>>> named(const HelicopterMetrics& metrics);
 
-/// Gathers the figures of a helicopter run while it goes on; give it every step in order.
+/// Gathers the figures while a run goes on; give it every step in order.
 class HelicopterMeter {
  public:
-  explicit HelicopterMeter(const HelicopterMeterOptions& options = {});
-
+  explicit HelicopterMeter(const HelicopterSetup& setup);
   void add(const HelicopterStep& step);
-
-  /// In this order (SI units; no value where there is none): settle_s (first time after which
-  /// position and heading stay within tolerance), settle_position_s, settle_heading_s, path_m,
-  /// path_ratio (over the straight line from start to end), final_position_m, final_heading_rad,
-  /// final_error, iae (integral of error_norm), position_iae_m_s, effort_m (sum |v_sent| dt,
-  /// translations), yaw_effort_rad, saturated_s, refused_s, unseen_s, overshoot_m (largest way
-  /// beyond the goal along the line from the start), steady_position_rms_m,
-  /// steady_heading_rms_rad, steady_forward_std_m_s, steady_right_std_m_s, steady_down_std_m_s,
-  /// steady_yaw_rate_std_rad_s (of the command), smallest_margin_px, first_out_of_view_s,
-  /// largest_condition, largest_speed_m_s, largest_yaw_rate_rad_s.
-  std::vector<std::pair<std::string, std::optional<double>>> metrics() const;
+  HelicopterMetrics metrics() const;
 
  private:
-  HelicopterMeterOptions options_;
-  std::vector<HelicopterStep> steps_;
-};
+  void add_errors(const HelicopterStep& step);
+  void add_image(const HelicopterStep& step);
+  void add_command(const HelicopterStep& step);
+  void add_matrix(const HelicopterStep& step);
 
-/// The names metrics() gives, in its order.
-const std::vector<std::string>& helicopter_metric_names();
+  LabCamera camera_;
+  HelicopterRules rules_;
+  HelicopterMetrics sums_;  // those that grow step by step
+  int steps_ = 0;
+  int last_bad_position_ = -1;
+  int last_bad_heading_ = -1;
+  Eigen::Vector3d start_m_ = Eigen::Vector3d::Zero();  // position error of the first frame
+  Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
+  bool is_singular_ = false;
+  std::vector<double> positions_m_;
+  std::vector<double> headings_rad_;
+  std::vector<VelocityCommand> wanted_;
+};
 
 }  // namespace kestrel

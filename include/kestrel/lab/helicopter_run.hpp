@@ -1,101 +1,79 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
+#include <vector>
 
+#include "kestrel/lab/camera_run.hpp"
+#include "kestrel/lab/helicopter_conditions.hpp"
 #include "kestrel/lab/helicopter_scenario.hpp"
-#include "kestrel/lab/lab_run.hpp"
 #include "kestrel/servo/helicopter_law.hpp"
-#include "kestrel/sim/helicopter.hpp"
-#include "kestrel/vehicle/failsafe.hpp"
-#include "kestrel/vehicle/limits.hpp"
 
 namespace kestrel {
 
-/// What is sent while the target is not seen.
-enum class LossReaction {
-  Failsafe,  // "failsafe": hold, decay, hover (vehicle/failsafe)
-  Hold,      // "hold": the last command for ever
-  Hover,     // "hover": zeros at once
-};
-
-/// A time in which the target is not seen: images taken in [from_s, from_s + for_s).
-struct TargetLoss {
-  double from_s = 0;
-  double for_s = 0;
-};
-
-/// The modifiers of a helicopter run: what the law is told wrongly, late or coarsely, and what is
-/// done with its answer.
-struct HelicopterConditions {
-  double gain_per_s = 0.5;   // lambda, and lambda_psi of the heading hold
-  double duration_s = 40;    // in frames of 1/30 s
-  int period_frames = 1;     // p: the command is computed at frames k with k mod p = 0
-  int delay_frames = 0;      // d: from the image of frame max(0, k - d)
-  bool predicted = false;    // the features are moved over the latency with the known motion
-  double depth_factor = 1;   // depths given to the law over the true ones, translations too
-  double noise_px = 0;       // standard deviation of each pixel coordinate
-  std::uint64_t seed = 42;   // of the noise
-  double roll_bias_rad = 0;  // of the attitude given to the law, minus the true one
-  double pitch_bias_rad = 0;
-  double yaw_bias_rad = 0;
-  double focal_px = 600;  // with the principal point in the middle of width x height
-  int width_px = 640;
-  int height_px = 480;
-  /// The velocity of the target is known and added to the command (moving targets).
-  bool feed_forward = false;
-  std::optional<CommandLimits> limits{};
-  std::optional<TargetLoss> loss{};
-  LossReaction reaction = LossReaction::Failsafe;
-  LossOptions failsafe{};
-  HelicopterOptions plant{};
-
-  /// Throws std::invalid_argument that names the first one out of range.
-  void check() const;
-};
+/// The plant and the image source go at this rate.
+inline constexpr double kHelicopterFrame_s = 1.0 / 30;
 
 /// By what a helicopter run is judged.
 struct HelicopterRules {
   double position_tolerance_m = 0.10;
   double heading_tolerance_rad = 0.034906585039886591;  // 2 deg
-  double collision_m = 0.05;                            // a point nearer ends the run
-  double diverged_m = 50;  // from the goal; farther, or not finite, ends the run
-  bool stops_out_of_view = false;
+  double collision_m = 0.05;                            // least depth of a point
+  double diverged_m = 50;                               // distance to the goal
+  bool stops_out_of_view = false;                       // a point beyond the image ends the run
 
+  /// Throws std::invalid_argument that names the first one out of range.
   void check() const;
 };
 
-/// One run of the helicopter benchmark.
-struct HelicopterExperiment {
-  std::string id;        // as in LabRun
-  std::string label;     // of the law: LabRun::law
-  std::string modifier;  // LabRun::modifier
+/// Everything that decides a run of a helicopter.
+struct HelicopterSetup {
   HelicopterScenario scenario;
-  HelicopterLawOptions law;  // its gains are replaced by those of the conditions
-  HelicopterConditions conditions;
-  HelicopterRules rules;
+  LabCamera camera{};
+  HelicopterLawOptions law{};
+  HelicopterConditions conditions{};
+  HelicopterRules rules{};
 
+  /// Throws std::invalid_argument that names the first thing out of range.
   void check() const;
 };
 
-/// Reads a clock of processor time, s; empty: law_us stays 0.
-using LabClock = std::function<double()>;
+/// The world in one frame.
+struct HelicopterFrame {
+  int step = 0;
+  double time_s = 0;
+  HelicopterState state;
+  Transform<frame::World, frame::Camera> world_from_camera;
+  TargetPose camera_from_target;
+  std::vector<Feature> points;  // of the tilted camera, without noise
+};
 
-/// Flies the experiment on sim/helicopter: 30 frames per second, in each the state is recorded,
-/// maybe a command computed, and the plant advanced by 1/30 s with the command held. Ends:
-/// Converged (position and heading within tolerance at the end), PositionOnly, HeadingOnly,
-/// TimedOut (neither), Refused (neither, and the law gave no answer at the end), Collision,
-/// Diverged, OutOfView. Columns of the trace: step, time_s, north_m, east_m, down_m, roll_rad,
-/// pitch_rad, yaw_rad (of the body), north_m_s, east_m_s, down_m_s, yaw_rate_rad_s, wanted_* and
-/// sent_* (forward_m_s, right_m_s, down_m_s, yaw_rate_rad_s: before and after limits and failsafe),
-/// u_i_px, v_i_px (true image points), error_norm (true points levelled, normalised plane),
-/// condition, sigma_min (of the law), position_error_m, heading_error_rad, seen, refused,
-/// saturated. Deterministic but for law_us.
-LabRun run(const HelicopterExperiment& experiment, const LabClock& clock = {});
+/// One frame of a run, the truth of it: all that a plot or a figure needs. Always finite.
+struct HelicopterStep {
+  HelicopterFrame frame;
+  Eigen::Vector3d position_error_m = Eigen::Vector3d::Zero();  // camera minus goal, NED
+  double heading_error_rad = 0;
+  double error_norm = 0;   // |s - s*| of the true points, truly levelled, normalised plane
+  VelocityCommand wanted;  // before limits and failsafe
+  VelocityCommand sent;
+  bool seen = true;  // the image of the last command
+  LawRefusal refusal = LawRefusal::None;
+  bool saturated = false;              // the limits changed the command
+  int rank = 0;                        // of the law's matrix; 0: none was inverted
+  double condition = 0;                // infinite when singular
+  double smallest_singular_value = 0;  // valid when rank > 0
+};
 
-/// "failsafe", "hold", "hover".
-const char* name(LossReaction reaction);
+/// Flies the setup on sim/helicopter: in each frame the world is looked at, maybe a command is
+/// computed (helicopter_law, limits over the time since the command before, failsafe when there is
+/// no answer, by the time since the frame of the last one), the step is told to `observe`, and the
+/// plant goes on for 1/30 s with the command held. The last step is the world at the end; nothing
+/// is decided in it. Ends: Converged (position and heading are within tolerance at the end),
+/// PositionOnly, HeadingOnly, TimedOut (neither), Refused (neither, and the law gave no answer at
+/// the end), Collision, Diverged, OutOfView. The same setup gives the same steps, bit by bit.
+/// Throws std::invalid_argument as setup.check() does.
+RunResult run_helicopter(const HelicopterSetup& setup,
+                         const std::function<void(const HelicopterStep&)>& observe,
+                         const LabClock& clock = {});
 
 }  // namespace kestrel
