@@ -1,9 +1,13 @@
 #pragma once
 
+#include <utility>
+
 #include "kestrel/servo/control_law.hpp"
 
-/// The families of laws behind control_law(); input and options were checked for what all laws need
-/// (points in equal number, finite, in front of the camera).
+/// The families of laws behind control_law(). It checks what all laws need (points in equal number,
+/// at three places or more, finite, in front of the camera; poses, homography, basis finite), and
+/// does what all laws share: smooth start, the state of laws that learn nothing, no NaN. A family
+/// answers with the twist of its gain, in the span of the basis.
 namespace kestrel::laws {
 
 /// An answer that gives no twist.
