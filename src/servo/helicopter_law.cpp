@@ -155,8 +155,8 @@ HelicopterLawAnswer on_helicopter(LawAnswer law, const LawInput& seen, const Mou
     twist.angular.head<2>().setZero();
     if (columns_of(options.variant) == 3) twist.angular.setZero();
     if (options.variant == HelicopterVariant::Vp3Hh) {
-      const double r = -options.heading_gain_per_s *
-                       wrap_angle(input.heading_rad - input.goal_heading_rad);
+      const double r =
+          -options.heading_gain_per_s * wrap_angle(input.heading_rad - input.goal_heading_rad);
       twist.linear += against_turn(options.law.law, seen, mount, r);
       twist.angular.z() = r;
     }

@@ -16,7 +16,8 @@ Transform<frame::World, frame::Camera> level_camera(const HelicopterSetup& setup
                                                     const HelicopterFrame& frame);
 
 /// What the law on a helicopter is told of the true world: points with their noise, late, depths
-/// and translations with their factor, an attitude with its bias.
+/// and translations with their factor, an attitude with its bias. The pose, for laws that need one,
+/// is that of the noisy points nearest to the true one: the planar ambiguity is left out.
 class HelicopterSight {
  public:
   explicit HelicopterSight(const HelicopterSetup& setup);
@@ -25,7 +26,7 @@ class HelicopterSight {
   void look(const HelicopterFrame& frame);
 
   /// What the law is told at the frame last looked at; empty when the target is not in the image it
-  /// would be told of. A change of what is told: the camera's motion since the image told before.
+  /// would be told of. The camera's motion is that since the image told before.
   std::optional<HelicopterLawInput> told();
 
  private:
@@ -36,7 +37,7 @@ class HelicopterSight {
   };
   const Image& image(int step) const { return images_[std::size_t(step) % images_.size()]; }
   Transform<frame::World, frame::Camera> looked_through(const HelicopterFrame& frame) const;
-  void add_pose(LawInput& input, const HelicopterFrame& frame) const;
+  void add_pose(LawInput& input, const Image& image) const;
 
   HelicopterSetup setup_;
   PixelNoise noise_;
