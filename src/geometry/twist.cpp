@@ -27,4 +27,16 @@ Displacement exponential(const Vector6d& twist, double duration_s) {
   return {rotation_from_vector(theta_u), left_jacobian * path};
 }
 
+Vector6d logarithm(const Displacement& motion) {
+  const Eigen::Vector3d theta_u = rotation_vector(motion.rotation);
+  const Eigen::Matrix3d S = skew(theta_u);
+  const double theta = theta_u.norm();
+  const double t2 = theta * theta;
+  // (1 - theta/2 cot(theta/2)) / theta^2, by series where it cancels.
+  const double c = theta < 1e-2 ? 1.0 / 12 + t2 / 720 * (1 + t2 / 42)
+                                : (1 - theta / 2 / std::tan(theta / 2)) / t2;
+  const Eigen::Vector3d& t = motion.translation;
+  return (Vector6d() << t - S * t / 2 + c * (S * (S * t)), theta_u).finished();
+}
+
 }  // namespace kestrel

@@ -76,6 +76,27 @@ TEST(Twist, ExponentialOfShortTimesKeepsItsDigits) {
   }
 }
 
+// Angles on both sides of where the formula changes to its series, up to half a turn.
+TEST(Twist, LogarithmIsTheInverseOfTheExponential) {
+  test::Random random("logarithm");
+  for (const double angle : {0.0, 1e-12, 1e-5, 9e-3, 1.1e-2, 0.5, 2.0, M_PI - 1e-4, M_PI - 1e-9}) {
+    for (int i = 0; i < 10; ++i) {
+      Vector6d v = any_twist(random);
+      v.tail<3>() *= angle / v.tail<3>().norm();
+      EXPECT_LT((logarithm(exponential(v, 1)) - v).norm(), 1e-13) << angle;
+    }
+  }
+}
+
+TEST(Twist, LogarithmOfHalfATurnMakesThatMotion) {
+  test::Random random("logarithm of half a turn");
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d u = random.rotation_vector(1).normalized();
+    const Displacement half{2 * u * u.transpose() - Matrix3d::Identity(), random.vector3(2)};
+    EXPECT_LT((matrix(exponential(logarithm(half), 1)) - matrix(half)).norm(), 1e-13);
+  }
+}
+
 TEST(Twist, VectorRoundTrip) {
   test::Random random("twist vector");
   const Vector6d v = any_twist(random);

@@ -47,6 +47,10 @@ struct Displacement {
 /// motion to coordinates before it.
 Displacement exponential(const Vector6d& twist, double duration_s);
 
+/// The constant twist (m, rad) that makes this motion in a unit of time: inverse of exponential,
+/// turns of at most half a turn; at exactly half a turn one of the two.
+Vector6d logarithm(const Displacement& motion);
+
 /// Pose of F in W after moving for duration_s at the constant twist of F.
 template <class W, class F>
 Transform<W, F> moved(const Transform<W, F>& w_from_f, const Twist<F>& twist, double duration_s) {
