@@ -31,8 +31,9 @@ double whole(const std::string& key, double value, double largest) {
 }
 
 ConditionKey count(const std::string& name, int Conditions::*number) {
-  return {name, [number](const Conditions& c) { return double(c.*number); },
-          [name, number](Conditions& c, double value) { c.*number = int(whole(name, value, 1e7)); }};
+  return {
+      name, [number](const Conditions& c) { return double(c.*number); },
+      [name, number](Conditions& c, double value) { c.*number = int(whole(name, value, 1e7)); }};
 }
 
 ConditionKey limit(const std::string& name, double CameraLimits::*number, double unit) {

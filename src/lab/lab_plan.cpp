@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "kestrel/geometry/rotation.hpp"
+#include "kestrel/lab/helicopter_benchmark.hpp"
 
 #include "plan_keys.hpp"
 
@@ -32,19 +33,23 @@ void require_once(std::set<std::string>& names, const std::string& name, const s
 
 void check_names(const LabPlan& plan) {
   std::set<std::string> laws;
-  std::set<std::string> scenarios{"map", "basin", "margin", "helicopter"};  // parts of ids
+  std::set<std::string> scenarios{"map", "basin", "margin"};  // beginnings of other ids
   std::set<std::string> modifiers;
   std::set<std::string> maps;
   std::set<std::string> basins;
   for (const auto& law : plan.laws) require_once(laws, law.label, "laws");
   for (const auto& scenario : plan.scenarios) require_once(scenarios, scenario.name, "scenarios");
+  for (const auto& scenario : plan.helicopter.scenarios) {
+    require_once(scenarios, scenario.name, "scenarios");
+  }
   for (const auto& modifier : plan.modifiers) require_once(modifiers, modifier.name, "modifiers");
   for (const auto& map : plan.maps) require_once(maps, map.name, "maps");
   for (const auto& basin : plan.basins) require_once(basins, basin.name, "basins");
 }
 
 void check_axis(const LabPlan& plan, const PlannedMap& map, const SweptKey& axis) {
-  if (axis.values.empty()) reject("map " + map.name + ": " + axis.key + " has no values; give some");
+  if (axis.values.empty())
+    reject("map " + map.name + ": " + axis.key + " has no values; give some");
   for (const double value : axis.values) {
     if (axis.key != "rz_deg") with_setting(plan.conditions, {axis.key, value});
   }
@@ -72,6 +77,10 @@ void check_parts(const LabPlan& plan) {
     scenario_named(plan, margin.scenario);
     laws_labelled(plan, margin.laws);
   }
+  for (const HelicopterScenario& scenario : plan.helicopter.scenarios) scenario.check();
+  for (const std::string& label : plan.helicopter.laws) helicopter_law_labelled(label);
+  for (const std::string& words : plan.helicopter.modifiers)
+    modified(HelicopterConditions{}, words);
 }
 
 }  // namespace
@@ -99,7 +108,8 @@ std::vector<PlannedLaw> laws_labelled(const LabPlan& plan, const std::vector<std
 }
 
 void LabPlan::check() const {
-  if ((laws.empty() || scenarios.empty()) && helicopter.empty()) {
+  const bool flies = !helicopter.laws.empty() && !helicopter.scenarios.empty();
+  if ((laws.empty() || scenarios.empty()) && !flies) {
     reject("there is nothing to run; give laws and scenarios, or helicopter");
   }
   check_names(*this);
@@ -115,9 +125,24 @@ void LabPlan::check() const {
   check_parts(*this);
 }
 
+std::pair<HelicopterVariant, Law> helicopter_law_labelled(const std::string& label) {
+  for (const HelicopterVariant variant : all_helicopter_variants()) {
+    for (const Law law : all_laws()) {
+      if (label == helicopter_law_label(variant, law)) {
+        const bool is_mejias = variant == HelicopterVariant::Mejias;
+        return {variant, is_mejias ? Law::Decoupled : law};
+      }
+    }
+  }
+  reject("there is no law " + label +
+         " on a helicopter; write a variant and a law, vp4_des, or "
+         "mejias");
+}
+
 Conditions with_modifier(const Conditions& conditions, const PlannedModifier& modifier) {
   Conditions changed = modified(conditions, modifier.words);
-  for (const ConditionSetting& setting : modifier.settings) changed = with_setting(changed, setting);
+  for (const ConditionSetting& setting : modifier.settings)
+    changed = with_setting(changed, setting);
   return changed;
 }
 

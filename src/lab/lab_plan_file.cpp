@@ -147,7 +147,7 @@ LabPlan load_plan(const std::filesystem::path& file) {
   plan.basins = read_list<PlannedBasin>(
       root, "basins", [&](const Section& section) { return read_basin(section, plan); });
   plan.margins = read_list<PlannedMargin>(root, "margins", read_margin);
-  if (root.has("helicopter")) plan.helicopter = root.words("helicopter");
+  if (const auto h = root.child_if("helicopter")) plan.helicopter = read_helicopter(*h);
   root.done();
   or_fail(root, "", [&] { plan.check(); });
   return plan;

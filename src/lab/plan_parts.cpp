@@ -10,24 +10,6 @@
 namespace kestrel {
 namespace {
 
-std::vector<Eigen::Vector3d> read_points(const Section& section) {
-  if (section.has("square_m")) {
-    if (section.has("points_m")) {
-      section.fail("square_m", "is given together with points_m; remove one of the two");
-    }
-    return square_points(section.number("square_m"));
-  }
-  const std::vector<double> numbers = section.numbers("points_m");
-  if (numbers.empty() || numbers.size() % 3 != 0) {
-    section.fail("points_m", "are no points; give a list of [x, y, z]");
-  }
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < numbers.size(); i += 3) {
-    points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-  }
-  return points;
-}
-
 TargetPose read_start(const Section& section, const TargetPose& goal) {
   if (section.has("start")) {
     if (section.has("start_in_goal")) {
@@ -40,7 +22,8 @@ TargetPose read_start(const Section& section, const TargetPose& goal) {
 }
 
 std::vector<std::string> words_if(const Section& section, const std::string& key) {
-  std::vector<std::string> words = section.has(key) ? section.words(key) : std::vector<std::string>{};
+  std::vector<std::string> words =
+      section.has(key) ? section.words(key) : std::vector<std::string>{};
   if (words == std::vector<std::string>{"all"}) words.clear();
   return words;
 }
@@ -83,16 +66,36 @@ std::vector<PlannedModifier> read_modifier(const Section& section) {
   modifier.words = section.text("words", "");
   const bool is_swept = section.has("sweep");
   modifier.name = is_swept ? section.text("name", "") : section.text("name");
-  or_fail(section, "words", [&] { modified({}, modifier.words); });
+  or_fail(section, "words", [&] { modified(Conditions{}, modifier.words); });
   modifier.settings = read_settings(section);
   modifier.scenarios = words_if(section, "on");
   modifier.laws = words_if(section, "laws");
   return is_swept ? swept(section.child("sweep"), modifier) : std::vector{modifier};
 }
 
-SweptKey read_axis(const Section& section) { return {section.text("key"), section.numbers("values")}; }
+SweptKey read_axis(const Section& section) {
+  return {section.text("key"), section.numbers("values")};
+}
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> read_points(const Section& section) {
+  if (section.has("square_m")) {
+    if (section.has("points_m")) {
+      section.fail("square_m", "is given together with points_m; remove one of the two");
+    }
+    return square_points(section.number("square_m"));
+  }
+  const std::vector<double> numbers = section.numbers("points_m");
+  if (numbers.empty() || numbers.size() % 3 != 0) {
+    section.fail("points_m", "are no points; give a list of [x, y, z]");
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  }
+  return points;
+}
 
 Scenario read_scenario(const Section& section) {
   Scenario scenario;
@@ -123,7 +126,7 @@ std::vector<PlannedModifier> read_modifiers(const Section& root, const std::stri
         all.push_back(std::move(modifier));
       }
     } else {
-      or_fail(root, key, [&] { modified({}, item.word); });
+      or_fail(root, key, [&] { modified(Conditions{}, item.word); });
       all.push_back({item.word, item.word, {}, {}, {}});
     }
   }

@@ -49,4 +49,10 @@ PlannedBasin read_basin(const Section& section, const LabPlan& plan);
 /// {scenario, laws, gain, delay}.
 PlannedMargin read_margin(const Section& section);
 
+/// {scenarios, laws, modifiers}.
+PlannedHelicopter read_helicopter(const Section& section);
+
+/// points_m or square_m.
+std::vector<Eigen::Vector3d> read_points(const Section& section);
+
 }  // namespace kestrel

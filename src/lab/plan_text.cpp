@@ -14,7 +14,8 @@ namespace {
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : text)
+    out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return out + '"';
 }
 
@@ -49,14 +50,14 @@ std::string text_of(const PlannedLaw& law) {
 
 std::string pose_text(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   const Eigen::Matrix3d rows = R.transpose();  // stored by columns
-  return "{translation_m: " + list(std::vector<double>(t.data(), t.data() + 3)) +
+  return "{translation_m: " + list(t) +
          ", rotation: " + list(std::vector<double>(rows.data(), rows.data() + 9)) + "}";
 }
 
 std::string full_text(const Scenario& scenario) {
   std::string points;
   for (const Eigen::Vector3d& p : scenario.points_m) {
-    points += (points.empty() ? "" : ", ") + list(std::vector<double>(p.data(), p.data() + 3));
+    points += (points.empty() ? "" : ", ") + list(p);
   }
   return "{name: " + quoted(scenario.name) + ", points_m: [" + points +
          "], goal: " + pose_text(scenario.goal.rotation, scenario.goal.translation) +
@@ -126,6 +127,32 @@ std::string text_of(const PlannedMargin& margin) {
          ", delay: " + (margin.delay ? "true" : "false") + "}";
 }
 
+std::string full_text(const HelicopterScenario& s) {
+  std::string points;
+  for (const Eigen::Vector3d& p : s.points_m) points += (points.empty() ? "" : ", ") + list(p);
+  return "{name: " + quoted(s.name) + ", points_m: [" + points +
+         "], goal: " + pose_text(s.goal.rotation, s.goal.translation) +
+         ", start_camera_m: " + list(s.start_camera_m) +
+         ", start_yaw_deg: " + number(s.start_yaw_rad / kPlanDegree) +
+         ", target_velocity_m_s: " + list(s.target_velocity_m_s) + ", body_from_camera: " +
+         pose_text(s.body_from_camera.rotation, s.body_from_camera.translation) +
+         ", world_from_target: " +
+         pose_text(s.world_from_target.rotation, s.world_from_target.translation) + "}";
+}
+
+std::string flights_text(const PlannedHelicopter& planned) {
+  const std::vector<HelicopterScenario>& known = helicopter_scenarios();
+  std::string text = "helicopter:\n  scenarios:\n";
+  for (const HelicopterScenario& scenario : planned.scenarios) {
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const auto& candidate) {
+      return full_text(candidate) == full_text(scenario);
+    });
+    text += "    - " + (is_known ? quoted(scenario.name) : full_text(scenario)) + '\n';
+  }
+  text += "  laws: " + list(planned.laws) + '\n';
+  return text + "  modifiers: " + list(planned.modifiers) + '\n';
+}
+
 template <class Part, class Text>
 std::string block(const char* key, const std::vector<Part>& parts, const Text& text) {
   if (parts.empty()) return "";
@@ -150,8 +177,14 @@ std::string plan_text(const LabPlan& plan) {
   text += block("maps", plan.maps, any);
   text += block("basins", plan.basins, any);
   text += block("margins", plan.margins, any);
-  if (!plan.helicopter.empty()) text += "helicopter: " + list(plan.helicopter) + '\n';
+  if (!plan.helicopter.laws.empty()) text += flights_text(plan.helicopter);
   return text;
+}
+
+std::string text_of(const HelicopterExperiment& experiment) {
+  return experiment.law + '\n' + full_text(experiment.setup.scenario) + '\n' +
+         text_of(experiment.setup.camera) + '\n' + experiment.modifier + ' ' +
+         std::to_string(experiment.trace_every);
 }
 
 std::string text_of(const CameraExperiment& experiment) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kestrel/lab/camera_run.hpp"
+#include "kestrel/lab/helicopter_benchmark.hpp"
 #include "kestrel/lab/start_poses.hpp"
 
 namespace kestrel {
@@ -59,6 +60,17 @@ struct PlannedMargin {
   bool delay = true;
 };
 
+/// Runs on the helicopter: each law in each scenario, without and with each modifier.
+struct PlannedHelicopter {
+  std::vector<HelicopterScenario> scenarios;
+  std::vector<std::string> laws;       // "vp4_des": variant and law inside
+  std::vector<std::string> modifiers;  // as modified() reads them
+};
+
+/// A law on the helicopter by its label ("vp3_hh_mean", "mejias"). Throws std::invalid_argument
+/// when there is none.
+std::pair<HelicopterVariant, Law> helicopter_law_labelled(const std::string& label);
+
 /// All that a comparison runs: each law on each scenario, without and with the modifiers that
 /// apply there, and beside that maps, basins and margins.
 struct LabPlan {
@@ -73,8 +85,7 @@ struct LabPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedBasin> basins;
   std::vector<PlannedMargin> margins;
-  /// Runs of the helicopter benchmark by their ids' beginnings ("H0", "H0/vp4_mean"), or "all".
-  std::vector<std::string> helicopter;
+  PlannedHelicopter helicopter{};
   /// Settled runs of maps and basins end when |e| has stayed below this; 0: they run all steps.
   double settled_error = 1e-5;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kestrel/lab/camera_experiment.hpp"
+#include "kestrel/lab/helicopter_experiment.hpp"
 #include "kestrel/lab/lab_plan.hpp"
 
 namespace kestrel {
@@ -26,7 +27,8 @@ std::string starts_csv(const std::vector<StartPose>& starts);
 /// The starts of such a file. Throws FileError with the line.
 std::vector<StartPose> load_starts(const std::filesystem::path& file);
 
-/// Everything that decides a run as text: equal texts, equal runs.
+/// Everything in a plan that decides a run, as text: equal texts, equal runs by one program.
 std::string text_of(const CameraExperiment& experiment);
+std::string text_of(const HelicopterExperiment& experiment);
 
 }  // namespace kestrel

@@ -1,0 +1,1 @@
+#include "kestrel/lab/lab_table.hpp"

@@ -1,0 +1,1 @@
+#include "kestrel/lab/planned_runs.hpp"
