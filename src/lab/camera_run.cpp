@@ -158,6 +158,7 @@ void RunRules::check() const {
 void CameraSetup::check() const {
   scenario.check();
   camera.check();
+  law.check();
   conditions.check();
   rules.check();
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "kestrel/geometry/point_homography.hpp"
+#include "kestrel/geometry/point_pose.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -19,13 +22,26 @@ bool needs_pose(Law law) {
   }
 }
 
+bool needs_homography(Law law) { return law == Law::CurZhomog || law == Law::Homog; }
+
+/// Nothing stands between the law and the true points.
+bool is_exact(const Conditions& c) {
+  return c.noise_px == 0 && c.focal_factor == 1 && c.principal_u_px == 0 && c.principal_v_px == 0;
+}
+
+std::vector<ImagePoint> image_points(const std::vector<Feature>& features) {
+  std::vector<ImagePoint> points;
+  points.reserve(features.size());
+  for (const Feature& feature : features) points.push_back(feature.at);
+  return points;
+}
+
 }  // namespace
 
 LawSight::LawSight(const CameraSetup& setup)
     : setup_(setup),
       noise_(setup.conditions.seed, setup.conditions.noise_px),
-      desired_(seen_points(setup.scenario.goal, setup.scenario.points_m)),
-      goal_(scaled(setup.scenario.goal)) {
+      desired_(seen_points(setup.scenario.goal, setup.scenario.points_m)) {
   const Conditions& c = setup_.conditions;
   const LabCamera& camera = setup_.camera;
   reached_.resize(Eigen::Index(2 * desired_.size()));
@@ -41,6 +57,9 @@ LawSight::LawSight(const CameraSetup& setup)
     }
     desired_[i].depth_m *= c.depth_factor;
   }
+  goal_ = setup.scenario.goal;
+  if (c.desired == Conditions::Desired::Taught) goal_ = pose_from(desired_, *goal_);
+  if (goal_) goal_ = scaled(*goal_);
   LawInput image;
   image.measured = desired_;
   image.desired = desired_;
@@ -59,11 +78,25 @@ TargetPose LawSight::scaled(TargetPose pose) const {
   return pose;
 }
 
+std::optional<TargetPose> LawSight::pose_from(const std::vector<Feature>& points,
+                                              const TargetPose& true_pose) const {
+  if (!needs_pose(setup_.law.law) || is_exact(setup_.conditions)) return true_pose;
+  return point_pose(setup_.scenario.points_m, image_points(points));
+}
+
 void LawSight::add_geometry(LawInput& input, const TargetPose& true_pose) const {
-  if (!needs_pose(setup_.law.law)) return;
-  input.camera_from_target = scaled(true_pose);
+  const Law law = setup_.law.law;
+  if (needs_homography(law)) {
+    input.camera_from_goal_homography =
+        point_homography(image_points(input.desired), image_points(input.measured));
+  }
+  if (!needs_pose(law)) return;
+  input.camera_from_target = pose_from(input.measured, true_pose);
   input.goal_from_target = goal_;
-  const GoalFromCamera motion = goal_ * input.camera_from_target->inverse();
+  input.goal_from_camera.reset();
+  if (!goal_ || !input.camera_from_target) return;
+  input.camera_from_target = scaled(*input.camera_from_target);
+  const GoalFromCamera motion = *goal_ * input.camera_from_target->inverse();
   input.goal_from_camera = Displacement{motion.rotation, motion.translation};
 }
 

@@ -24,7 +24,7 @@ Scenario near_goal(const Scenario& scenario, double share) {
 /// Largest error of the middle and of the last third of a run: their ratio is free of how the run
 /// starts, and the error oscillates in both.
 bool keeps_small_errors(CameraSetup setup, const MarginOptions& options) {
-  constexpr double kGone = 1e-6;          // of the first error: below it rounding rules
+  constexpr double kGone = 1e-6;           // of the first error: below it rounding rules
   constexpr double kStillNoGrowth = 1e-7;  // an error that stays, up to rounding, does not grow
   setup.scenario = near_goal(setup.scenario, options.offset_share);
   std::array<double, 3> largest{};

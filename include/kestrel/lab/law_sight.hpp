@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kestrel/lab/camera_run.hpp"
@@ -9,7 +10,9 @@
 namespace kestrel {
 
 /// What the law is told of the true world: the points with their noise, mis-calibrated and late,
-/// depths and translations with their factor, and the pose or homography that these points give.
+/// depths and translations with their factor, and, for the laws that need one, the pose or the
+/// homography that these points give (point_pose, point_homography). Points that are exact give the
+/// true pose. Where the points give none, the law is told none.
 class LawSight {
  public:
   explicit LawSight(const CameraSetup& setup);
@@ -29,12 +32,14 @@ class LawSight {
  private:
   ImagePoint believed(const ImagePoint& point) const;
   TargetPose scaled(TargetPose pose) const;
+  std::optional<TargetPose> pose_from(const std::vector<Feature>& points,
+                                      const TargetPose& true_pose) const;
   void add_geometry(LawInput& input, const TargetPose& true_pose) const;
 
   CameraSetup setup_;
   PixelNoise noise_;
   std::vector<Feature> desired_;
-  TargetPose goal_;  // as believed
+  std::optional<TargetPose> goal_;  // as believed
   Eigen::VectorXd reached_;
   std::vector<LawInput> images_;  // the last delay + 1, a ring
   int step_ = -1;
