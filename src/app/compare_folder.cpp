@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "kestrel/io/csv.hpp"
+#include "kestrel/lab/lab_page.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
+#include "kestrel/lab/plan_report.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -48,6 +50,14 @@ std::string results_json(const LabPlan& plan, const std::vector<MadeRun>& runs) 
   return text + "\n}\n";
 }
 
+std::string page(const LabPlan& plan, const std::vector<MadeRun>& runs) {
+  LabReport report = report_of(plan, runs);
+  report.what = "Image-based and pose-based control laws, each on the same runs.";
+  report.commands = std::string("kestrel compare ") + kPlanFile;
+  report.configuration = plan_text(plan);
+  return lab_page(report);
+}
+
 }  // namespace
 
 const char* const kPlanFile = "configuration.yaml";
@@ -73,6 +83,7 @@ LabPlan claim_folder(const fs::path& folder, const LabPlan& plan, const std::str
 void write_results(const fs::path& folder, const LabPlan& plan, const std::vector<MadeRun>& runs) {
   write_text(folder / "results.csv", csv(results_table(runs)));
   write_text(folder / "results.json", results_json(plan, runs));
+  write_text(folder / "index.html", page(plan, runs));
   write_text(folder / "table.txt", tables_text(plan, runs));
   if (!plan.basins.empty()) {
     write_text(folder / "basins.csv", csv(basin_table(plan, runs)));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "kestrel/lab/lab_report.hpp"
+
 #include "table_rows.hpp"
 
 namespace kestrel {
@@ -81,6 +83,18 @@ Share share_of(int successes, int trials) {
   return {p, std::max(0., middle - half), std::min(1., middle + half)};
 }
 
+std::vector<BasinCount> basin_counts(const std::vector<MadeRun>& runs) {
+  std::vector<BasinCount> counts;
+  std::vector<std::string> keys;
+  for (const MadeRun* made : of_part(runs, LabPart::Basin)) {
+    const std::size_t at = place(keys, std::to_string(made->of) + "/" + made->run.law);
+    if (at == counts.size()) counts.push_back({made->of, made->run.law, 0, 0});
+    counts[at].converged += made->run.end == RunEnd::Converged;
+    ++counts[at].starts;
+  }
+  return counts;
+}
+
 Table basin_table(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   Table table{{{"basin"},
                {"law"},
@@ -90,22 +104,11 @@ Table basin_table(const LabPlan& plan, const std::vector<MadeRun>& runs) {
                {"low_percent", 1},
                {"high_percent", 1}},
               {}};
-  for (std::size_t i = 0; i < plan.basins.size(); ++i) {
-    std::vector<std::string> laws;
-    std::vector<std::pair<int, int>> counts;  // converged, of
-    for (const MadeRun* made : of_part(runs, LabPart::Basin)) {
-      if (made->of != i) continue;
-      const std::size_t at = place(laws, made->run.law);
-      counts.resize(laws.size());
-      counts[at].first += made->run.end == RunEnd::Converged;
-      ++counts[at].second;
-    }
-    for (std::size_t k = 0; k < laws.size(); ++k) {
-      const Share share = share_of(counts[k].first, counts[k].second);
-      table.rows.push_back({plan.basins[i].name, laws[k], std::int64_t(counts[k].first),
-                            std::int64_t(counts[k].second), 100 * share.value, 100 * share.low,
-                            100 * share.high});
-    }
+  for (const BasinCount& count : basin_counts(runs)) {
+    const Share share = share_of(count.converged, count.starts);
+    table.rows.push_back({plan.basins[count.basin].name, count.law, std::int64_t(count.converged),
+                          std::int64_t(count.starts), 100 * share.value, 100 * share.low,
+                          100 * share.high});
   }
   return table;
 }
@@ -147,7 +150,7 @@ Table margin_table(const LabPlan& plan, const std::vector<MadeRun>& runs) {
       table.rows.push_back({scenario, run.law, kNone, kNone});
     }
     for (std::size_t column : {2, 3}) {
-      const auto value = figure_of(run, table.columns[column].name);
+      const auto value = figure(run, table.columns[column].name);
       if (value) table.rows.back()[column] = *value;
     }
   }

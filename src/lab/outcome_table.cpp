@@ -1,23 +1,12 @@
-#include <cmath>
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
+#include "kestrel/lab/lab_report.hpp"
 
 #include "table_rows.hpp"
 
 namespace kestrel {
 namespace {
-
-std::string cell(const LabRun& run) {
-  if (run.end == RunEnd::Converged) {
-    const auto step = figure_of(run, "k_error");
-    if (step) return std::to_string(std::lround(*step));
-    if (const auto time_s = figure_of(run, "settle_s")) return fmt::format("{:.1f} s", *time_s);
-  }
-  if (run.end == RunEnd::Refused) return std::string("refused: ") + name(run.refusal);
-  return name(run.end);
-}
 
 /// Laws down, the keys of runs across.
 ReportTable crossed(const std::string& caption,
@@ -33,7 +22,7 @@ ReportTable crossed(const std::string& caption,
   table.rows.assign(laws.size(), std::vector<std::string>(columns.size() + 1));
   for (std::size_t i = 0; i < laws.size(); ++i) table.rows[i][0] = laws[i];
   for (const auto& [column, run] : runs) {
-    table.rows[place(laws, run->law)][place(columns, column) + 1] = cell(*run);
+    table.rows[place(laws, run->law)][place(columns, column) + 1] = outcome(*run);
   }
   return table;
 }
@@ -54,13 +43,6 @@ std::vector<const MadeRun*> of_part(const std::vector<MadeRun>& runs, LabPart pa
     if (made.part == part) chosen.push_back(&made);
   }
   return chosen;
-}
-
-std::optional<double> figure_of(const LabRun& run, const std::string& name) {
-  for (const auto& [metric, value] : run.metrics) {
-    if (metric == name) return value;
-  }
-  return std::nullopt;
 }
 
 std::vector<ReportTable> outcome_tables(const std::vector<MadeRun>& runs) {

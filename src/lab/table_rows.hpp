@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,15 @@ std::size_t place(std::vector<std::string>& names, const std::string& name);
 /// The runs of one part of the plan.
 std::vector<const MadeRun*> of_part(const std::vector<MadeRun>& runs, LabPart part);
 
-/// A figure of a run; empty when it has none.
-std::optional<double> figure_of(const LabRun& run, const std::string& name);
+/// How many starts of a basin a law reached the goal from.
+struct BasinCount {
+  std::size_t basin = 0;
+  std::string law;
+  int converged = 0;
+  int starts = 0;
+};
+
+/// By basin and law, in the order of the runs.
+std::vector<BasinCount> basin_counts(const std::vector<MadeRun>& runs);
 
 }  // namespace kestrel
