@@ -10,7 +10,7 @@
 
 namespace kestrel {
 
-/// The plan of a YAML file (tasks/README.md has every key), starts drawn or read. Throws FileError
+/// The plan of a YAML file (tasks/compare.md has every key), starts drawn or read. Throws FileError
 /// with the line for any mistake, and std::invalid_argument as LabPlan::check.
 LabPlan load_plan(const std::filesystem::path& file);
 
