@@ -11,6 +11,7 @@
 #include "kestrel/lab/lab_page.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
 #include "kestrel/lab/plan_report.hpp"
+#include "kestrel/servo/law_catalogue.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -55,6 +56,11 @@ std::string page(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   report.what = "Image-based and pose-based control laws, each on the same runs.";
   report.commands = std::string("kestrel compare ") + kPlanFile;
   report.configuration = plan_text(plan);
+  for (const Law law : all_laws()) {
+    const LawSheet& sheet = law_sheet(law);
+    report.sheets.push_back({name(law), sheet.formula, sheet.needs, sheet.source, sheet.use,
+                             sheet.breaks});
+  }
   return lab_page(report);
 }
 
