@@ -58,8 +58,8 @@ std::string page(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   report.configuration = plan_text(plan);
   for (const Law law : all_laws()) {
     const LawSheet& sheet = law_sheet(law);
-    report.sheets.push_back({name(law), sheet.formula, sheet.needs, sheet.source, sheet.use,
-                             sheet.breaks});
+    report.sheets.push_back(
+        {name(law), sheet.formula, sheet.needs, sheet.source, sheet.use, sheet.breaks});
   }
   return lab_page(report);
 }
