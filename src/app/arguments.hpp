@@ -9,6 +9,7 @@
 #include "kestrel/geometry/pixel.hpp"
 #include "kestrel/vision/track_options.hpp"
 
+#include "compare.hpp"
 #include "evaluate.hpp"
 
 namespace kestrel::app {
@@ -71,7 +72,8 @@ struct DemoArguments {
 };
 
 using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
-                               CheckArguments, DemoArguments, EvaluateArguments>;
+                               CheckArguments, DemoArguments, EvaluateArguments, CompareArguments,
+                               MergeArguments, LawsArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

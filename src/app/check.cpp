@@ -8,6 +8,8 @@
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/task_file.hpp"
 #include "kestrel/io/truth_file.hpp"
+#include "kestrel/lab/lab_plan_file.hpp"
+#include "kestrel/lab/planned_runs.hpp"
 #include "kestrel/servo/interaction.hpp"
 
 #include "simulation_file.hpp"
@@ -139,6 +141,14 @@ void check_sequence(const std::filesystem::path& file) {
   say("licence", d.licence);
 }
 
+void check_plan(const std::filesystem::path& file) {
+  const LabPlan plan = load_plan(file);
+  fmt::print("{}: a comparison: {}\n", file.string(), plan.title);
+  say("laws", std::to_string(plan.laws.size() + plan.helicopter.laws.size()));
+  say("scenarios", std::to_string(plan.scenarios.size() + plan.helicopter.scenarios.size()));
+  say("runs", std::to_string(planned_runs(plan, "").size()));
+}
+
 /// Which kind of file a YAML file is, by its keys.
 void check_yaml(const std::filesystem::path& file) {
   const Section root = Section::load(file);
@@ -151,6 +161,7 @@ void check_yaml(const std::filesystem::path& file) {
     const Mount mount = load_mount(file);
     return fmt::print("{}: a mount: {}\n", file.string(), describe(mount));
   }
+  if (root.has("laws") || root.has("scenarios") || root.has("helicopter")) return check_plan(file);
   check_task(root);
 }
 

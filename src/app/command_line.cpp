@@ -128,6 +128,9 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   const auto check = std::make_shared<CheckArguments>();
   const auto demo = std::make_shared<DemoArguments>();
   const auto evaluate = std::make_shared<EvaluateArguments>();
+  const auto compare = std::make_shared<CompareArguments>();
+  const auto merge = std::make_shared<MergeArguments>();
+  const auto laws = std::make_shared<LawsArguments>();
   add_track(app, track);
   add_servo(app, servo);
   add_simulate(app, simulate);
@@ -138,6 +141,9 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
       *app.add_subcommand("evaluate",
                           "Run methods and settings over sequences and score them against truth"),
       evaluate);
+  add_compare(app, compare);
+  add_merge(app, merge);
+  add_laws(app, laws);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -152,6 +158,9 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("receive")) return Arguments(*receive);
   if (app.got_subcommand("check")) return Arguments(*check);
   if (app.got_subcommand("evaluate")) return Arguments(*evaluate);
+  if (app.got_subcommand("compare")) return Arguments(*compare);
+  if (app.got_subcommand("merge")) return Arguments(*merge);
+  if (app.got_subcommand("laws")) return Arguments(*laws);
   return Arguments(*demo);
 }
 

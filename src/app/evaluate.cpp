@@ -1,8 +1,6 @@
 #include "evaluate.hpp"
 
 #include <algorithm>
-#include <ctime>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <thread>
@@ -20,6 +18,7 @@
 #include "evaluate_methods.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "this_program.hpp"
 #include "verbs.hpp"
 
 namespace kestrel::app {
@@ -28,20 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kConfigurationFile = "configuration.txt";
-
-/// Processor time of the calling thread: what others do meanwhile hardly counts.
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-/// What every result depends on: this program and its OpenCV.
-std::string program() {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return "program " + digest(bytes) + ", OpenCV " + cv::getVersionString();
-}
 
 EvaluationPlan plan_of(const EvaluateArguments& a, const std::vector<BenchMethod>& more) {
   EvaluationPlan plan;
@@ -62,7 +47,7 @@ EvaluationPlan plan_of(const EvaluateArguments& a, const std::vector<BenchMethod
   }
   std::copy_if(more.begin(), more.end(), std::back_inserter(plan.methods),
                [&](const BenchMethod& method) { return is_wanted(method.name); });
-  plan.inputs[""] = program();
+  plan.inputs[""] = this_program();
   plan.check();
   return plan;
 }

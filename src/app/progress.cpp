@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,8 +13,8 @@ double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Progress::Progress(std::optional<std::int64_t> total)
-    : total_(total), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::optional<std::int64_t> total, std::string step)
+    : total_(total), step_(std::move(step)), on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() { clear(); }
 
@@ -28,7 +29,7 @@ void Progress::step(std::int64_t done, const std::string& what) {
   if (last_s_ >= 0 && now - last_s_ < 0.1) return;
   last_s_ = now;
   const std::string of = total_ ? fmt::format(" of {}", *total_) : "";
-  fmt::print(stderr, "\r\x1b[Kframe {}{}  {}", done, of, what);
+  fmt::print(stderr, "\r\x1b[K{} {}{}  {}", step_, done, of, what);
   std::fflush(stderr);
 }
 

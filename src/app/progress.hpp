@@ -9,8 +9,8 @@ namespace kestrel::app {
 /// One line on the terminal that tells how far a long job is; silent when stderr is no terminal.
 class Progress {
  public:
-  /// total: how many steps there are; empty when nobody knows.
-  explicit Progress(std::optional<std::int64_t> total);
+  /// total: how many steps there are; empty when nobody knows. step: what one is called.
+  explicit Progress(std::optional<std::int64_t> total, std::string step = "frame");
   /// Clears the line.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -23,6 +23,7 @@ class Progress {
 
  private:
   std::optional<std::int64_t> total_;
+  std::string step_;
   bool on_terminal_;
   double last_s_ = -1;
 };

@@ -16,5 +16,8 @@ int run(const ReceiveArguments& arguments);
 int run(const CheckArguments& arguments);
 int run(const DemoArguments& arguments);
 int run(const EvaluateArguments& arguments);
+int run(const CompareArguments& arguments);
+int run(const MergeArguments& arguments);
+int run(const LawsArguments& arguments);
 
 }  // namespace kestrel::app

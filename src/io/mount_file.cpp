@@ -44,6 +44,11 @@ Eigen::Matrix3d rotation_from_angles(const Section& section) {
   return rotation_from_rpy(rpy[0] * kDegree, rpy[1] * kDegree, rpy[2] * kDegree);
 }
 
+Eigen::Matrix3d rotation_from_axis(const Section& section) {
+  const std::vector<double> theta_u = section.numbers("theta_u_deg", 3);
+  return rotation_from_vector(Eigen::Vector3d(theta_u[0], theta_u[1], theta_u[2]) * kDegree);
+}
+
 /// ViSP's vpPoseVector: translation and theta*u.
 Displacement visp_pose(const Section& section) {
   if (section.integer("rows") != 6 || section.integer("cols", 1) != 1) {
@@ -56,12 +61,18 @@ Displacement visp_pose(const Section& section) {
 Displacement displacement(const Section& section) {
   if (section.has("data")) return visp_pose(section);
   const std::vector<double> t = section.numbers("translation_m", 3);
-  const bool matrix = section.has("rotation");
-  if (matrix && section.has("rpy_deg")) {
-    section.fail("rotation", "is given together with rpy_deg; remove one of the two");
+  std::vector<std::string> given;
+  for (const char* form : {"rotation", "theta_u_deg", "rpy_deg"}) {
+    if (section.has(form)) given.emplace_back(form);
   }
-  return {matrix ? rotation_from_matrix(section) : rotation_from_angles(section),
-          {t[0], t[1], t[2]}};
+  if (given.size() > 1) {
+    section.fail(given[0], "is given together with " + given[1] + "; remove one of the two");
+  }
+  const std::string form = given.empty() ? "rpy_deg" : given[0];
+  const Eigen::Matrix3d R = form == "rotation"      ? rotation_from_matrix(section)
+                            : form == "theta_u_deg" ? rotation_from_axis(section)
+                                                    : rotation_from_angles(section);
+  return {R, {t[0], t[1], t[2]}};
 }
 
 /// A direction in Body in words: the nearest axis and, beyond half a degree, by how much it leans

@@ -61,6 +61,8 @@ std::string line_classes(const Series& series, std::size_t place) {
   std::string classes = "kl c" + colour(series.colour < 0 ? int(place) : series.colour);
   if (series.stroke == Stroke::Dashed) classes += " kd";
   if (series.stroke == Stroke::Faint) classes += " kz kd";
+  if (series.stroke == Stroke::Dotted) classes += " kp";
+  if (series.stroke == Stroke::DashDot) classes += " kq";
   return classes;
 }
 

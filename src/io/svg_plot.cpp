@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "svg_line_ends.hpp"
 #include "svg_parts.hpp"
 #include "svg_path.hpp"
 
@@ -35,7 +36,7 @@ Legend legend(const Plot& plot) {
     return x - width;
   };
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    if (plot.series[i].name.empty()) continue;
+    if (plot.series[i].name.empty() || plot.names == Plot::Names::LineEnds) continue;
     const double at = place(plot.series[i].name);
     out.drawing += svg::line(at, y - 4, at + 22, y - 4, svg::line_classes(plot.series[i], i));
   }
@@ -91,7 +92,7 @@ Axes axes_of(const Plot& plot, double top) {
   }
   const bool free = plot.axes == Plot::Axes::Free || plot.y_spacing == Spacing::Logarithmic;
   out.x = {range_of(xs, Spacing::Linear, free ? 0.01 : 0.05), Spacing::Linear, kLeft,
-           plot.width_px - kRight};
+           plot.width_px - kRight - svg::line_end_width(plot)};
   out.y = {range_of(ys, plot.y_spacing, 0.06), plot.y_spacing, plot.height_px - kBottom, top};
   if (!free) make_equal(out);
   if (plot.axes == Plot::Axes::EqualDown) std::swap(out.y.begin, out.y.end);
@@ -123,8 +124,8 @@ std::string grid(const Plot& plot, const Axes& axes) {
 std::string labels(const Plot& plot, double top) {
   const double middle = (top + plot.height_px - kBottom) / 2;
   return svg::text(kLeft, 20, "start", "kh", plot.title) +
-         svg::text((kLeft + plot.width_px - kRight) / 2, plot.height_px - 8, "middle", "",
-                   plot.x_label) +
+         svg::text((kLeft + plot.width_px - kRight - svg::line_end_width(plot)) / 2,
+                   plot.height_px - 8, "middle", "", plot.x_label) +
          fmt::format("<g transform=\"translate(13 {:.1f}) rotate(-90)\">{}</g>\n", middle,
                      svg::text(0, 0, "middle", "", plot.y_label));
 }
@@ -163,6 +164,7 @@ std::string svg_plot(const Plot& plot) {
   body += limit_lines(axes);
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     body += svg::path(plot.series[i], i, axes.x, axes.y);
+  if (plot.names == Plot::Names::LineEnds) body += svg::line_ends(plot, axes.x, axes.y);
   for (const Mark& mark : plot.marks) body += svg::mark(mark, axes.x.at(mark.x), axes.y.at(mark.y));
   const std::string label =
       fmt::format("Plot: {}. {} over {}", plot.title, plot.y_label, plot.x_label);

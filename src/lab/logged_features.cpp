@@ -1,5 +1,7 @@
 #include "kestrel/lab/logged_features.hpp"
 
+#include <algorithm>
+
 #include "kestrel/geometry/attitude.hpp"
 
 namespace kestrel {
@@ -11,12 +13,21 @@ Eigen::Matrix3d levelling(const LogRow& row, const Task& task) {
   return level_camera_from_camera(task.body_from_camera.rotation, *row.attitude);
 }
 
+/// Whether the row's error is that of the four corners; the error of a law with features of its own
+/// is not logged.
+bool has_corner_error(const LogRow& row) {
+  const auto& e = row.servo->error;
+  const bool is_zero = std::all_of(e.begin(), e.end(), [](double x) { return x == 0; });
+  return !is_zero || row.servo->error_norm == 0;
+}
+
 }  // namespace
 
 std::vector<Feature> logged_features(const LogRow& row, const Task& task) {
   if (!row.pose || !row.servo) return {};
   const TargetPose pose{rotation_from_vector(row.pose->rotation_rad), row.pose->translation_m};
   std::vector<Feature> seen = features(pose, target_corners(task));
+  if (!has_corner_error(row)) return seen;
   const std::vector<Feature> desired = desired_features(task);
   const Eigen::Matrix3d to_camera = levelling(row, task).transpose();
   for (std::size_t i = 0; i < seen.size(); ++i) {

@@ -75,6 +75,16 @@ TEST_F(MountFile, GivesOneMountWhateverItsForm) {
   }
 }
 
+TEST_F(MountFile, ReadsARotationAsAxisTimesAngle) {
+  // A turn of 120 deg about the diagonal takes x to y, y to z, z to x.
+  const Mount mount = load(
+      "translation_m: [0, 0, 0]\ntheta_u_deg: [69.2820323027551, "
+      "69.2820323027551, 69.2820323027551]\n");
+  EXPECT_TRUE(mount.rotation.col(0).isApprox(Vector3d::UnitY(), 1e-12)) << mount.rotation;
+  EXPECT_THAT(error_of("translation_m: [0, 0, 0]\ntheta_u_deg: [0, 0, 0]\nrpy_deg: [0, 0, 0]\n"),
+              HasSubstr("m.yaml:2: theta_u_deg: is given together with rpy_deg"));
+}
+
 TEST_F(MountFile, ReadsThePoseThatViSPWrites) {
   const vpPoseVector pose(0.1, -0.2, 0.3, 1.2, -0.5, 0.7);
   const std::string file = (folder_.path() / "eMc.yaml").string();

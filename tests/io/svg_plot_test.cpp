@@ -179,6 +179,40 @@ TEST(SvgPlot, IsWellFormedForAnyNumbers) {
   }
 }
 
+TEST(SvgPlot, NamesBesideTheEndsDoNotCoverEachOther) {
+  Plot plot = plot_of({}, {});
+  plot.names = Plot::Names::LineEnds;
+  plot.series.clear();
+  for (int i = 0; i < 20; ++i)
+    plot.series.push_back({"law" + std::to_string(i), {0, 1}, {1, 0.001 * i}});
+  plot.series.push_back({"gone", {0, kNan}, {kNan, 1}});
+  const std::string svg = svg_plot(plot);
+  EXPECT_EQ(test::markup_fault(svg), "");
+  EXPECT_THAT(svg, Not(HasSubstr(">gone<")));  // it has no end
+  const std::regex name("class=\"kt ke\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>law([0-9]+)<");
+  std::map<double, int> rows;
+  for (std::sregex_iterator n(svg.begin(), svg.end(), name), end; n != end; ++n) {
+    rows[std::stod((*n)[2])] = std::stoi((*n)[3]);
+    EXPECT_LT(std::stod((*n)[1]), plot.width_px - 40);
+  }
+  ASSERT_EQ(rows.size(), 20u);
+  double last = 0;
+  int place = 19;  // the largest value is the highest
+  for (const auto& [y, law] : rows) {
+    EXPECT_GE(y - last, 11.4);
+    EXPECT_EQ(law, place--);
+    last = y;
+  }
+}
+
+TEST(SvgPlot, StrokesAreToldApart) {
+  Plot plot = plot_of({0, 1}, {0, 1});
+  plot.series[0].stroke = Stroke::Dotted;
+  EXPECT_THAT(svg_plot(plot), HasSubstr("class=\"kl c0 kp\""));
+  plot.series[0].stroke = Stroke::DashDot;
+  EXPECT_THAT(svg_plot(plot), HasSubstr("class=\"kl c0 kq\""));
+}
+
 TEST(SvgPlot, IsTheSameEachTime) {
   const Plot plot = plot_of({0, 1, 2}, {0.1, 0.2, 0.3});
   EXPECT_EQ(svg_plot(plot), svg_plot(plot));

@@ -152,6 +152,30 @@ TEST_F(SectionTest, RefusesListsOfTheWrongLengthOrKind) {
               StartsWith(at(5, "c: is a text or number; write keys")));
 }
 
+TEST_F(SectionTest, ReadsListsOfWordsAndOfKeys) {
+  const Section s = load("a:\n  - cur\n  - {law: mean, gain: 2}\nb: all\nc: [x, y]\n");
+  const auto items = s.items("a");
+  ASSERT_EQ(items.size(), 2u);
+  EXPECT_EQ(items[0].word, "cur");
+  EXPECT_FALSE(items[0].keys);
+  ASSERT_TRUE(items[1].keys);
+  EXPECT_EQ(items[1].keys->text("law"), "mean");
+  EXPECT_EQ(items[1].keys->keys(), (std::vector<std::string>{"law", "gain"}));
+  EXPECT_EQ(s.words("b"), std::vector<std::string>{"all"});
+  EXPECT_EQ(s.words("c"), (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(message_of([&] { s.done(); }), at(3, "a[2].gain: is no key here; remove it"));
+  EXPECT_EQ(items[1].keys->number("gain"), 2);
+  s.done();
+}
+
+TEST_F(SectionTest, RefusesItemsOfTheWrongKind) {
+  const Section s = load("a: [[1]]\nb: {c: 1}\nd: [{e: 1}]\nf: ['']\n");
+  EXPECT_THAT(message_of([&] { s.items("a"); }), StartsWith(at(1, "a[1]: is a list; give")));
+  EXPECT_THAT(message_of([&] { s.items("b"); }), HasSubstr("give a list"));
+  EXPECT_THAT(message_of([&] { s.words("d"); }), StartsWith(at(3, "d: has keys where words")));
+  EXPECT_THAT(message_of([&] { s.words("f"); }), HasSubstr("empty text"));
+}
+
 TEST_F(SectionTest, NamesTheFileThatCannotBeLoaded) {
   EXPECT_THAT(message_of([&] { Section::load(folder_.path() / "none.yaml"); }),
               HasSubstr("none.yaml: there is no such file"));

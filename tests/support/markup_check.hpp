@@ -8,7 +8,7 @@ namespace kestrel::test {
 
 /// What is wrong with the nesting of the tags of an XML or HTML text; empty when it is well formed:
 /// every element is closed in order, attributes are quoted, no stray < or & is in the text. The
-/// content of <style> is skipped; elements that HTML never closes may stand alone.
+/// content of <style> and <script> is skipped; elements that HTML never closes may stand alone.
 inline std::string markup_fault(std::string_view text) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < text.size();) {
@@ -43,7 +43,7 @@ inline std::string markup_fault(std::string_view text) {
     }
     const bool is_alone = tag.back() == '/' || name == "meta" || name == "img" || name == "link";
     if (!is_alone) open.push_back(name);
-    if (name == "style") at = text.find("</style>", at);
+    if (name == "style" || name == "script") at = text.find("</" + name + ">", at);
   }
   return open.empty() ? "" : "<" + open.back() + "> is not closed";
 }

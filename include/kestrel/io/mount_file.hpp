@@ -8,9 +8,10 @@
 
 namespace kestrel {
 
-/// The pose that a section gives in one of three ways:
+/// The pose that a section gives in one of four ways:
 /// `translation_m: [x, y, z]` with `rpy_deg: [roll, pitch, yaw]`, R = Rz(yaw) Ry(pitch) Rx(roll);
 /// `translation_m` with `rotation`, 9 numbers row by row or 3 rows of 3;
+/// `translation_m` with `theta_u_deg: [x, y, z]`, the rotation's axis times its angle;
 /// ViSP's pose (vpPoseVector's YAML): `rows: 6`, `cols: 1`, `data: [tx, ty, tz, tux, tuy, tuz]`.
 /// The rotation's columns are the axes of From seen in To. A matrix within 1e-3 of a rotation is
 /// replaced by the nearest one; anything else throws FileError that says how far off it is.

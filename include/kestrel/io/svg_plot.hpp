@@ -8,7 +8,7 @@
 namespace kestrel {
 
 /// How a series is drawn.
-enum class Stroke { Solid, Dashed, Faint };
+enum class Stroke { Solid, Dashed, Faint, Dotted, DashDot };
 
 /// A shape that marks a place of a plot.
 enum class Shape { Circle, Cross };
@@ -51,6 +51,8 @@ struct Plot {
     Equal,      // one unit is as long on both (linear axes only)
     EqualDown,  // the same, y growing downwards: an image
   } axes = Axes::Free;
+  /// Where the names of the lines stand: above, or beside the last value of each.
+  enum class Names { Legend, LineEnds } names = Names::Legend;
   std::string when_empty = "no values to show";
   double width_px = 640;
   double height_px = 300;

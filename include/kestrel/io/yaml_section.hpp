@@ -12,6 +12,8 @@
 
 namespace kestrel {
 
+struct SectionItem;
+
 /// A map of a YAML file that remembers which keys were asked for. Every mistake throws FileError
 /// with the line: missing key, wrong type, duplicate key, and in done() any key nobody read.
 class Section {
@@ -48,6 +50,12 @@ class Section {
   std::vector<double> numbers(const std::string& key) const;
   /// A list of exactly this many numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
+  /// A list of words and of maps; a single word counts as a list of one.
+  std::vector<SectionItem> items(const std::string& key) const;
+  /// A list of words; a single one counts as a list of one.
+  std::vector<std::string> words(const std::string& key) const;
+  /// The keys of this section as they stand in the file; makes none of them known.
+  std::vector<std::string> keys() const;
   /// A path, relative to the file's folder.
   std::filesystem::path path(const std::string& key) const;
 
@@ -86,10 +94,17 @@ class Section {
   struct Value;
   Section(std::shared_ptr<Document> document, std::size_t record);
   Value value(const std::string& key) const;
+  Section opened(const std::string& name, const YamlNode& node, int line) const;
   std::size_t one_of(const std::string& key, const std::vector<std::string>& words) const;
 
   std::shared_ptr<Document> document_;
   std::size_t record_;
+};
+
+/// An item of a list: a word, or a map of keys.
+struct SectionItem {
+  std::string word;  // empty when there are keys
+  std::optional<Section> keys;
 };
 
 }  // namespace kestrel

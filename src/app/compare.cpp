@@ -1,0 +1,79 @@
+#include "compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "kestrel/lab/lab_plan_file.hpp"
+
+#include "compare_folder.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "this_program.hpp"
+#include "verbs.hpp"
+
+namespace kestrel::app {
+namespace {
+
+/// How long the rest will take when it goes on like this.
+std::string time_left(const LabProgress& now, double elapsed_s) {
+  const auto made = double(now.finished - now.reused);
+  if (made < 1) return "";
+  const double left_s = elapsed_s / made * double(now.planned - now.finished);
+  return left_s < 60 ? fmt::format("{:.0f} s left", left_s)
+                     : fmt::format("{:.0f} min left", std::ceil(left_s / 60));
+}
+
+LabOutcome run_plan(const std::vector<LabJob>& jobs, const CompareArguments& a,
+                    const std::filesystem::path& folder) {
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  std::size_t planned = 0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) planned += a.shard.holds(i);
+  Progress progress(std::int64_t(planned), "run");
+  const double start_s = monotonic_s();
+  const LabHooks hooks{interrupted, [&](const LabProgress& now) {
+                         progress.step(std::int64_t(now.finished),
+                                       time_left(now, monotonic_s() - start_s));
+                       }};
+  return run_jobs(jobs, {folder, a.jobs > 0 ? a.jobs : cores, a.shard, a.earlier}, hooks);
+}
+
+void tell(const LabOutcome& outcome, const CompareArguments& a) {
+  if (outcome.reused > 0) {
+    fmt::print(stderr, "{} of {} runs were finished before\n", outcome.reused, outcome.planned);
+  }
+  for (const LabFailure& failure : outcome.failures) {
+    fmt::print(stderr, "{}: failed: {}\n", failure.id, failure.reason);
+  }
+  if (a.shard.of > 1) {
+    fmt::print(stderr, "shard {}/{}: {} runs; unite the shards with 'kestrel merge'\n",
+               a.shard.number, a.shard.of, outcome.planned);
+  }
+  if (!outcome.is_complete() && outcome.failures.empty()) {
+    fmt::print(stderr,
+               "interrupted: {} of {} runs are finished; the same command goes on from here\n",
+               outcome.finished, outcome.planned);
+  }
+}
+
+}  // namespace
+
+int run(const CompareArguments& a) {
+  const std::filesystem::path folder =
+      a.output.empty() ? std::filesystem::path("runs") / a.plan.stem() : a.output;
+  const LabPlan wanted = load_plan(a.plan);
+  const LabPlan plan = claim_folder(folder, wanted, plan_text(wanted));
+  const std::vector<PlannedRun> planned = planned_runs(plan, this_program(), thread_cpu_s);
+  LabOutcome outcome = run_plan(jobs_of(planned), a, folder);
+  tell(outcome, a);
+  const std::vector<MadeRun> made = made_runs(planned, std::move(outcome.runs));
+  write_results(folder, plan, made);
+  print_results(plan, made, a.printed);
+  fmt::print(stderr, "comparison: {}\n", folder.string());
+  if (!outcome.failures.empty()) return 1;
+  return outcome.is_complete() ? 0 : kInterrupted;
+}
+
+}  // namespace kestrel::app

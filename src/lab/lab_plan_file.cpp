@@ -1,0 +1,156 @@
+#include "kestrel/lab/lab_plan_file.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "kestrel/io/mount_file.hpp"
+#include "kestrel/io/yaml_section.hpp"
+#include "kestrel/lab/benchmark.hpp"
+
+#include "plan_keys.hpp"
+#include "plan_parts.hpp"
+
+namespace kestrel {
+namespace {
+
+constexpr const char* kAll = "all";
+
+std::vector<std::string> names(const std::vector<Scenario>& scenarios) {
+  std::vector<std::string> all;
+  for (const Scenario& scenario : scenarios) all.push_back(scenario.name);
+  return all;
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> all;
+  for (const Law law : all_laws()) all.emplace_back(name(law));
+  return all;
+}
+
+[[noreturn]] void unknown(const Section& section, const std::string& key, const std::string& what,
+                          const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  section.fail(key, "there is no " + what + " " + word +
+                        (near.empty() ? "; write one of " + list : "; did you mean " + near + "?"));
+}
+
+Law law_of(const Section& section, const std::string& key, const std::string& word) {
+  const auto law = law_named(word);
+  if (!law) unknown(section, key, "law", word, law_names());
+  return *law;
+}
+
+PlannedLaw read_law(const Section& section) {
+  PlannedLaw planned;
+  const std::string word = section.text("law");
+  planned.options = benchmark_law(law_of(section, "law", word));
+  planned.label = section.text("label", word);
+  LawOptions& options = planned.options;
+  options.solver = section.choice<LawSolver>(
+      "solver", {{"eigen", LawSolver::Eigen}, {"visp", LawSolver::Visp}}, options.solver);
+  if (section.has("gain_per_s")) options.gain = LawGain::constant(section.number("gain_per_s"));
+  read_numbers(section, gain_keys(), options.gain);
+  read_numbers(section, law_keys(), options);
+  or_fail(section, "", [&] { options.check(); });
+  return planned;
+}
+
+std::vector<PlannedLaw> read_laws(const Section& root) {
+  std::vector<PlannedLaw> laws;
+  for (const SectionItem& item : root.items("laws")) {
+    if (item.keys) {
+      laws.push_back(read_law(*item.keys));
+    } else if (item.word == kAll) {
+      for (const Law law : all_laws()) laws.push_back({name(law), benchmark_law(law)});
+    } else {
+      laws.push_back({item.word, benchmark_law(law_of(root, "laws", item.word))});
+    }
+  }
+  return laws;
+}
+
+std::vector<Scenario> read_scenarios(const Section& root) {
+  std::vector<Scenario> scenarios;
+  const std::vector<Scenario>& known = benchmark_scenarios();
+  for (const SectionItem& item : root.items("scenarios")) {
+    if (item.keys) {
+      scenarios.push_back(read_scenario(*item.keys));
+    } else if (item.word == kAll) {
+      scenarios.insert(scenarios.end(), known.begin(), known.end());
+    } else {
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const Scenario& s) { return s.name == item.word; });
+      if (found == known.end()) unknown(root, "scenarios", "scenario", item.word, names(known));
+      scenarios.push_back(*found);
+    }
+  }
+  return scenarios;
+}
+
+LabCamera read_camera(const Section& section) {
+  LabCamera camera;
+  camera.focal_px = section.number("focal_px", camera.focal_px);
+  if (section.has("principal_px")) {
+    const std::vector<double> principal = section.numbers("principal_px", 2);
+    camera.principal_u_px = principal[0];
+    camera.principal_v_px = principal[1];
+  }
+  if (section.has("size_px")) {
+    const std::vector<double> size = section.numbers("size_px", 2);
+    camera.width_px = int(size[0]);
+    camera.height_px = int(size[1]);
+    if (camera.width_px != size[0] || camera.height_px != size[1]) {
+      section.fail("size_px", "are no whole numbers of pixels; write whole numbers");
+    }
+  }
+  or_fail(section, "", [&] { camera.check(); });
+  return camera;
+}
+
+RunRules read_rules(const Section& section) {
+  RunRules rules;
+  read_numbers(section, rule_keys(), rules);
+  rules.settled_steps = section.whole("settled_steps", rules.settled_steps);
+  rules.stops_out_of_view = section.flag("stops_out_of_view", rules.stops_out_of_view);
+  or_fail(section, "", [&] { rules.check(); });
+  return rules;
+}
+
+template <class Part, class Read>
+std::vector<Part> read_list(const Section& root, const std::string& key, Read read) {
+  std::vector<Part> parts;
+  if (!root.has(key)) return parts;
+  for (const SectionItem& item : root.items(key)) {
+    if (!item.keys) root.fail(key, "'" + item.word + "' is a word; give keys in braces");
+    parts.push_back(read(*item.keys));
+  }
+  return parts;
+}
+
+}  // namespace
+
+LabPlan load_plan(const std::filesystem::path& file) {
+  const Section root = Section::load(file);
+  LabPlan plan;
+  plan.title = root.text("title", file.stem().string());
+  plan.trace_every = root.whole("trace_every", plan.trace_every);
+  plan.settled_error = root.number("settled_error", plan.settled_error);
+  if (root.has("laws")) plan.laws = read_laws(root);
+  if (root.has("scenarios")) plan.scenarios = read_scenarios(root);
+  if (const auto camera = root.child_if("camera")) plan.camera = read_camera(*camera);
+  if (const auto c = root.child_if("conditions")) plan.conditions = read_conditions(*c, {});
+  if (const auto rules = root.child_if("rules")) plan.rules = read_rules(*rules);
+  if (root.has("modifiers")) plan.modifiers = read_modifiers(root, "modifiers");
+  plan.maps = read_list<PlannedMap>(root, "maps", read_map);
+  plan.basins = read_list<PlannedBasin>(
+      root, "basins", [&](const Section& section) { return read_basin(section, plan); });
+  plan.margins = read_list<PlannedMargin>(root, "margins", read_margin);
+  if (const auto h = root.child_if("helicopter")) plan.helicopter = read_helicopter(*h);
+  root.done();
+  or_fail(root, "", [&] { plan.check(); });
+  return plan;
+}
+
+}  // namespace kestrel

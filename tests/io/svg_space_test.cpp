@@ -1,0 +1,110 @@
+#include "kestrel/io/svg_space.hpp"
+
+#include <limits>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "support/markup_check.hpp"
+#include "support/random.hpp"
+
+namespace kestrel {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The camera's axes as the camera sees them: x right, y down.
+SpaceView from_behind() { return {{0, -1, 0}, {0, 0, -1}}; }
+
+std::vector<Eigen::Vector2d> vertices(const std::string& svg) {
+  std::vector<Eigen::Vector2d> out;
+  const std::regex path("<path class=\"kl c0\" d=\"([^\"]*)\"");
+  const std::regex vertex("[ML](-?[0-9.]+) (-?[0-9.]+)");
+  std::smatch found;
+  if (!std::regex_search(svg, found, path)) return out;
+  const std::string d = found[1];
+  for (std::sregex_iterator v(d.begin(), d.end(), vertex), end; v != end; ++v)
+    out.emplace_back(std::stod((*v)[1]), std::stod((*v)[2]));
+  return out;
+}
+
+SpacePlot plot_of(const std::vector<Eigen::Vector3d>& points_m) {
+  SpacePlot plot;
+  plot.title = "a < b";
+  plot.view = from_behind();
+  plot.lines = {{"cur & <1>", points_m, 0}};
+  return plot;
+}
+
+TEST(Projected, FromBehindACameraItIsItsImage) {
+  const Eigen::Vector2d at = projected(from_behind(), {1, 2, 30});
+  EXPECT_NEAR(at.x(), 1, 1e-12);
+  EXPECT_NEAR(at.y(), -2, 1e-12);
+}
+
+TEST(Projected, UpIsUpAndLengthsAcrossTheViewAreKept) {
+  test::Random random("svg_space");
+  for (int i = 0; i < 20; ++i) {
+    const auto draw = [&] {
+      return Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    };
+    const SpaceView view{{0, -1, 0}, draw()};
+    EXPECT_GT(projected(view, view.up).y(), 0);
+    EXPECT_NEAR(projected(view, view.up).x(), 0, 1e-12);
+    EXPECT_NEAR(projected(view, view.towards_eye).norm(), 0, 1e-12);
+    const Eigen::Vector3d across = view.towards_eye.cross(draw());
+    EXPECT_NEAR(projected(view, across).norm(), across.norm(), 1e-12);
+  }
+}
+
+TEST(SvgSpace, HasOneScaleAndABarThatTellsIt) {
+  const std::string svg = svg_space(plot_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}));
+  const auto at = vertices(svg);
+  ASSERT_EQ(at.size(), 3u);
+  const double two_m = (at[1] - at[0]).norm();
+  EXPECT_NEAR((at[2] - at[1]).norm() / two_m, 0.5, 0.002);
+  EXPECT_GT(at[2].y(), at[1].y());  // y of a camera is down
+  std::smatch bar;
+  ASSERT_TRUE(std::regex_search(svg, bar, std::regex("v8m0 -4h([0-9.]+)")));
+  std::smatch words;
+  ASSERT_TRUE(std::regex_search(svg, words, std::regex(">([0-9.]+) m<")));
+  EXPECT_NEAR(std::stod(bar[1]) / std::stod(words[1]), two_m / 2, 0.5);
+}
+
+TEST(SvgSpace, ACutLineDoesNotWidenThePicture) {
+  SpacePlot plot = plot_of({{0, 0, 0}, {1, 1, 0}});
+  const auto before = vertices(svg_space(plot));
+  plot.lines.push_back({"", {{0, 0, 0}, {50, 0, 0}}, 1, Stroke::Solid, SpaceLine::Fit::Cut});
+  EXPECT_EQ(vertices(svg_space(plot)), before);
+  plot.lines.back().fit = SpaceLine::Fit::Whole;
+  EXPECT_NE(vertices(svg_space(plot)), before);
+}
+
+TEST(SvgSpace, DrawsTheAxesOfAFrame) {
+  SpacePlot plot = plot_of({{0, 0, 0}, {1, 1, 0}});
+  plot.frames = {{"goal <*>", {0.5, 0.5, 0}, Eigen::Matrix3d::Identity()}};
+  const std::string svg = svg_space(plot);
+  EXPECT_THAT(svg, HasSubstr(">goal &lt;*&gt;<"));
+  EXPECT_THAT(svg, HasSubstr(">x<"));
+  EXPECT_THAT(svg, HasSubstr(">y<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">z<")));  // it points away from the eye
+}
+
+TEST(SvgSpace, NothingAndNonsenseAreWellFormed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(svg_space({}), HasSubstr("no values to show"));
+  for (const SpacePlot& plot :
+       {SpacePlot(), plot_of({}), plot_of({{nan, 0, 0}}), plot_of({{0, 0, 0}}),
+        plot_of({{1e300, 0, 0}, {-1e300, 0, 0}, {1 / 0., nan, 0}})}) {
+    const std::string svg = svg_space(plot);
+    EXPECT_EQ(test::markup_fault(svg), "");
+    EXPECT_FALSE(std::regex_search(svg, std::regex("[\" ]-?(nan|inf)"))) << svg;
+  }
+}
+
+}  // namespace
+}  // namespace kestrel
