@@ -1,0 +1,89 @@
+#include "kestrel/lab/task_diagnosis.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "lab/feature_flight.hpp"
+
+namespace kestrel {
+namespace {
+
+const Finding& about(const std::vector<Finding>& findings, const std::string& topic) {
+  static const Finding none{Weight::Fault, "missing", "missing", ""};
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const Finding& f) { return f.topic == topic; });
+  return found == findings.end() ? none : *found;
+}
+
+bool says(const Finding& finding, const std::string& words) {
+  return finding.what.find(words) != std::string::npos;
+}
+
+/// Three freedoms, well conditioned.
+Task calm_task() {
+  Task task = test::square_task();
+  task.limits = CommandLimits{};
+  task.servo.freedom = Freedom::Three;
+  task.servo.law = Law::Des;
+  return task;
+}
+
+// The condition of a forward camera with four freedoms, 5 m before 1 m: 592 (doc/benchmark.md).
+TEST(TaskDiagnosis, NamesTheMotionTheImageHardlyShows) {
+  const Finding four = about(diagnosis(test::square_task(), {}), "jacobian");
+  EXPECT_EQ(four.weight, Weight::Doubt);
+  EXPECT_TRUE(says(four, "condition 592")) << four.what;
+  EXPECT_TRUE(says(four, "right")) << four.what;
+  EXPECT_EQ(about(diagnosis(calm_task(), {}), "jacobian").weight, Weight::Fine);
+}
+
+// Limits of the lateral loop of the built-in helicopter: 5.46 per second without latency, 2.81 with
+// 0.2 s; a quarter of it is fine, beyond it is a fault.
+TEST(TaskDiagnosis, HoldsTheGainToTheLimitsOfRateAndLatency) {
+  Task task = calm_task();
+  const Finding good = about(diagnosis(task, {}), "gain");
+  EXPECT_EQ(good.weight, Weight::Fine) << good.what;
+  EXPECT_TRUE(says(good, "is 60 for a vehicle")) << good.what;
+  EXPECT_TRUE(says(good, "5.4")) << good.what;
+  task.servo.gain_per_s = 1;
+  EXPECT_EQ(about(diagnosis(task, {30, 0.2}), "gain").weight, Weight::Doubt);
+  task.servo.gain_per_s = 3.5;
+  EXPECT_EQ(about(diagnosis(task, {30, 0.2}), "gain").weight, Weight::Fault);
+}
+
+TEST(TaskDiagnosis, SaysWhatATargetToTheRightCommands) {
+  Task task = calm_task();
+  // 0.02 of the normalised plane at 5 m is 0.1 m, times the gain of 0.5 per second.
+  EXPECT_TRUE(says(about(diagnosis(task, {}), "sign"),
+                   "too far to the right commands forward +0.000, right +0.050, down +0.000"))
+      << about(diagnosis(task, {}), "sign").what;
+}
+
+// Four freedoms, 592: one pixel is .446 m/s to the side at a gain of 0.5.
+TEST(TaskDiagnosis, SaysWhatAPixelOfNoiseCommands) {
+  const Finding noise = about(diagnosis(test::square_task(), {}), "noise");
+  EXPECT_EQ(noise.weight, Weight::Doubt);
+  EXPECT_TRUE(says(noise, "right 0.4")) << noise.what;
+  EXPECT_EQ(about(diagnosis(calm_task(), {}), "noise").weight, Weight::Fine);
+}
+
+TEST(TaskDiagnosis, FliesFromAroundTheGoal) {
+  const Finding three = about(diagnosis(calm_task(), {}), "start");
+  EXPECT_TRUE(says(three, "of 24 flights")) << three.what;
+  // Nothing turns the heading with three freedoms: it stays as it was drawn.
+  EXPECT_EQ(three.weight, Weight::Fault) << three.what;
+  Task task = test::square_task();
+  task.limits = CommandLimits{};
+  const Finding four = about(diagnosis(task, {}), "start");
+  EXPECT_EQ(four.weight, Weight::Fine) << four.what;
+}
+
+TEST(TaskDiagnosis, RefusesATimingThatIsNone) {
+  EXPECT_THROW(diagnosis(calm_task(), {0, 0}), std::invalid_argument);
+  EXPECT_THROW(diagnosis(calm_task(), {30, -1}), std::invalid_argument);
+  EXPECT_THROW(diagnosis(calm_task(), {30, std::nan("")}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kestrel
