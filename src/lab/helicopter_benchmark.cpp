@@ -41,7 +41,7 @@ HelicopterExperiment helicopter_experiment(const HelicopterScenario& scenario, V
   experiment.modifier = modifier;
   experiment.setup.scenario = scenario;
   experiment.setup.law = benchmark_helicopter_law(variant, law);
-  experiment.setup.conditions = modified({}, modifier);
+  experiment.setup.conditions = modified(HelicopterConditions{}, modifier);
   return experiment;
 }
 
