@@ -14,6 +14,8 @@ void demand(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("margins: ") + what);
 }
 
+constexpr double kGone = 1e-9;  // of the offset at the start
+
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
 /// The setup beside its goal, at rest, with nothing that is not linear for a small offset.
@@ -56,7 +58,9 @@ bool settles_laterally(const HelicopterSetup& wanted, double gain_per_s,
   if (result.end == RunEnd::Diverged || result.end == RunEnd::Collision) return false;
   const auto quarter = std::ptrdiff_t(offsets_m.size() / 4);
   const auto last = offsets_m.end() - quarter;
-  const double before_m = *std::max_element(last - quarter, last);
+  // What has died away altogether no longer shrinks: it is rounding.
+  const double before_m =
+      std::max(*std::max_element(last - quarter, last), kGone * options.offset_m);
   return *std::max_element(last, offsets_m.end()) < before_m;
 }
 

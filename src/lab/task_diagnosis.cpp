@@ -23,8 +23,11 @@ constexpr int kStarts = 24;
 using Findings = std::vector<Finding>;
 
 std::string words(const VelocityCommand& c) {
+  // What rounds to nothing has no sign.
+  const auto shown = [](double value, double unit) { return std::round(value / unit) * unit + 0.; };
   return fmt::format("forward {:+.3f}, right {:+.3f}, down {:+.3f} m/s, yaw {:+.2f} deg/s",
-                     c.forward_m_s, c.right_m_s, c.down_m_s, c.yaw_rate_rad_s / kDegree);
+                     shown(c.forward_m_s, 1e-3), shown(c.right_m_s, 1e-3), shown(c.down_m_s, 1e-3),
+                     shown(c.yaw_rate_rad_s / kDegree, 1e-2));
 }
 
 std::vector<const char*> motions(Freedom freedom) {
@@ -195,6 +198,7 @@ HelicopterSetup helicopter_setup(const Task& task, const TaskTiming& timing) {
     setup.camera = {p.px, p.u0, p.v0, p.width, p.height};
   }
   setup.law.law = law_options(task.servo);
+  setup.law.law.solver = LawSolver::Eigen;
   setup.law.variant = task.servo.freedom == Freedom::Four    ? HelicopterVariant::Vp4
                       : task.servo.freedom == Freedom::Three ? HelicopterVariant::Vp3
                                                              : HelicopterVariant::Drop6;

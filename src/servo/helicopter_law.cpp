@@ -5,10 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/QR>
-
 #include "kestrel/geometry/rotation.hpp"
-#include "kestrel/servo/interaction.hpp"
+
+#include "laws/heading_hold.hpp"
 
 namespace kestrel {
 namespace {
@@ -70,62 +69,6 @@ LawInput over_latency(LawInput input, const CameraMotion& now_from_then) {
   return input;
 }
 
-/// cVb S: the camera's twists for the body's forward, right, down and, for four columns, turn.
-TwistBasis body_basis(const Mount& body_from_camera, int columns) {
-  const Transform<frame::Camera, frame::Body> camera_from_body = body_from_camera.inverse();
-  const Matrix6d cVb = twist_matrix(camera_from_body.rotation, camera_from_body.translation);
-  TwistBasis basis(6, columns);
-  basis.leftCols<3>() = cVb.leftCols<3>();
-  if (columns == 4) basis.col(3) = cVb.col(5);
-  return basis;
-}
-
-Points with_goal_depths(const LawInput& input) {
-  Points seen = input.measured;
-  for (std::size_t i = 0; i < seen.size(); ++i) seen[i].depth_m = input.desired[i].depth_m;
-  return seen;
-}
-
-/// The measured points; a depth that is not known, which not all laws need, is that of the goal.
-Points with_known_depths(const LawInput& input) {
-  Points seen = input.measured;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!(seen[i].depth_m >= 1e-6)) seen[i].depth_m = input.desired[i].depth_m;
-  }
-  return seen;
-}
-
-/// L^ of the law, or what stands in for it.
-Eigen::MatrixXd matrix_of(Law law, const LawInput& input) {
-  switch (law) {
-    case Law::Des:
-      return interaction_matrix(input.desired);
-    case Law::CurZdes:
-      return interaction_matrix(with_goal_depths(input));
-    case Law::CurZarea:
-      return interaction_matrix(with_area_depth(input.measured, input.desired));
-    case Law::Mean:
-    case Law::Mjp:
-      return (interaction_matrix(with_known_depths(input)) + interaction_matrix(input.desired)) / 2;
-    case Law::MeanZdes:
-      return (interaction_matrix(with_goal_depths(input)) + interaction_matrix(input.desired)) / 2;
-    default:
-      return interaction_matrix(with_known_depths(input));
-  }
-}
-
-bool knows_rotation(Law law) {
-  return law == Law::TwoAndHalfD || law == Law::PbvsCt || law == Law::PbvsCo || law == Law::Screw;
-}
-
-/// -(A3)^+ a_r r: the velocity (m/s, level body) that keeps the image still while the helicopter
-/// turns, as far as three translations can.
-Eigen::Vector3d against_turn(Law law, const LawInput& input, const Mount& mount, double r_rad_s) {
-  if (knows_rotation(law) || r_rad_s == 0) return Eigen::Vector3d::Zero();
-  const Eigen::MatrixXd A = matrix_of(law, input) * body_basis(mount, 4);
-  return -A.leftCols<3>().colPivHouseholderQr().solve(A.col(3) * r_rad_s);
-}
-
 int columns_of(HelicopterVariant variant) {
   switch (variant) {
     case HelicopterVariant::Vp4:
@@ -157,7 +100,7 @@ HelicopterLawAnswer on_helicopter(LawAnswer law, const LawInput& seen, const Mou
     if (options.variant == HelicopterVariant::Vp3Hh) {
       const double r =
           -options.heading_gain_per_s * wrap_angle(input.heading_rad - input.goal_heading_rad);
-      twist.linear += against_turn(options.law.law, seen, mount, r);
+      twist.linear += laws::against_turn(options.law.law, seen, mount, r);
       twist.angular.z() = r;
     }
     answer.twist = twist;
@@ -198,7 +141,7 @@ HelicopterLawAnswer helicopter_law(const HelicopterLawInput& input,
     if (!are_in_front(seen.measured)) return refused(LawRefusal::Singular, state);
   }
   const int columns = columns_of(options.variant);
-  seen.basis = columns == 6 ? TwistBasis{} : body_basis(mount, columns);
+  seen.basis = columns == 6 ? TwistBasis{} : laws::body_basis(mount, columns);
   LawOptions inside = options.law;
   if (options.variant == HelicopterVariant::Mejias) inside.law = Law::Decoupled;
   return on_helicopter(control_law(seen, inside, state), seen, mount, input, options);

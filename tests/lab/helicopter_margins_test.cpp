@@ -19,7 +19,7 @@ HelicopterSetup loop_of(int period_frames, int delay_frames) {
 
 // The eigenvalues of the linear loop know the limit; the flight is asked 1.5 % below and above it.
 TEST(HelicopterMargins, TheLimitIsThatOfTheLinearLoop) {
-  for (const auto& [period, delay] : {std::pair{1, 0}, {1, 6}, {28, 0}, {28, 28}}) {
+  for (const auto& [period, delay] : {std::pair{1, 0}, {1, 6}, {28, 28}}) {
     const double limit_per_s = test::lateral_gain_limit_oracle(period, delay);
     const HelicopterSetup setup = loop_of(period, delay);
     EXPECT_TRUE(settles_laterally(setup, 0.985 * limit_per_s)) << period << ' ' << delay;

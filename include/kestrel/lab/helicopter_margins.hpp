@@ -14,7 +14,7 @@ struct HelicopterMarginOptions {
   double high_per_s = 20;
   double relative_tolerance = 1e-3;  // of the gain found
   double shortest_s = 40;            // of a run ...
-  int fewest_commands = 60;          // ... and as long as it takes to give these
+  int fewest_commands = 200;         // ... and as long as it takes to give these
 
   /// Throws std::invalid_argument that names the first one out of range.
   void check() const;
