@@ -90,7 +90,8 @@ std::string outcome_tables(const LabReport& report) {
   const LabNames laws = laws_of(report.runs);
   std::string out;
   if (!plain.empty()) out += table("Every law on every scenario", plain, laws, grid);
-  for (const std::string& scenario : scenarios_of(report.runs).all()) {
+  const LabNames scenarios = scenarios_of(report.runs);
+  for (const std::string& scenario : scenarios.all()) {
     std::vector<Column> columns;
     for (const std::string& modifier : modifiers[scenario].all())
       columns.push_back({modifier.empty() ? "unmodified" : modifier, scenario, modifier});

@@ -99,6 +99,7 @@ function drawOverlay() {
 // Every component of one run in one plot: columns -> lines with their names at the ends.
 function together(run, columns, title, label, scale, more) {
   const v = decode(run), known = columns.filter(c => v[c]);
+  if (!known.length) return "";
   return plot({title, xl: "time (s)", yl: label, xMax: horizon([run]) || 1, ends: true, h: 320, ...more, series: known.map((c, i) => ({
     x: v.t, y: v[c].map(y => y * (scale ? scale(c) : 1)), law: "d" + i, look: i, name: titled(c)}))});
 }
