@@ -53,7 +53,7 @@ TEST(LabTable, SharesHaveWilsonsInterval) {
   // 0.1611, both without continuity correction.
   EXPECT_NEAR(share_of(81, 263).low, 0.2553, 5e-5);
   EXPECT_NEAR(share_of(81, 263).high, 0.3662, 5e-5);
-  EXPECT_EQ(share_of(0, 20).low, 0);
+  EXPECT_NEAR(share_of(0, 20).low, 0, 1e-15);
   EXPECT_NEAR(share_of(0, 20).high, 0.1611, 5e-5);
   EXPECT_NEAR(share_of(20, 20).low, 1 - 0.1611, 5e-5);
   EXPECT_EQ(share_of(0, 0).high, 1);
