@@ -108,9 +108,8 @@ void check_task(const Section& root) {
   say("mount", describe(e.task.body_from_camera));
   say("tracker", describe(e.task.track));
   say("goal", describe_goal(e.task));
-  say("law",
-      fmt::format("{} interaction matrix, gain {} 1/s, over {}", name(e.task.servo.interaction),
-                  e.task.servo.gain_per_s, words(e.task.servo.freedom)));
+  say("law", fmt::format("{}, gain {} 1/s, over {}", name(e.task.servo.law),
+                         e.task.servo.gain_per_s, words(e.task.servo.freedom)));
   say("limits", describe(e.task.limits.speed, ""));
   say("slew", describe(e.task.limits.acceleration, " per s"));
   say("on loss", fmt::format("hold {} s, decay with {} s, hover from {} s", e.task.loss.hold_s,

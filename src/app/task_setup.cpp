@@ -52,9 +52,9 @@ void finish_run(RunRecorder& recorder, const Template& model, const Task& task, 
   Report report;
   report.title = title;
   report.what = fmt::format(
-      "Each frame: keypoints in the window, homography, pose, servo law ({} interaction matrix, "
+      "Each frame: keypoints in the window, homography, pose, servo law ({}, "
       "gain {} 1/s), command in the heading frame.",
-      name(task.servo.interaction), task.servo.gain_per_s);
+      name(task.servo.law), task.servo.gain_per_s);
   report.warnings = end.skipped;
   if (end.broken) report.warnings.insert(report.warnings.begin(), end.reason);
   report.summary = summary;

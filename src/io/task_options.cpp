@@ -172,19 +172,38 @@ PlanePoseOptions read_pose_options(const Section& root) {
   return checked(*s, o);
 }
 
+namespace {
+
+/// law, by any of its names; interaction, by what the three best known matrices were called first.
+Law read_law(const Section& s, Law otherwise) {
+  if (!s.has("interaction")) {
+    std::vector<std::pair<std::string, Law>> words;
+    for (const Law law : all_laws()) words.emplace_back(name(law), law);
+    return s.choice<Law>("law", words, otherwise);
+  }
+  if (s.has("law")) s.fail("interaction", "stands beside law, which says the same; keep one");
+  return s.choice<Law>("interaction",
+                       {{"current", Law::Cur}, {"desired", Law::Des}, {"mean", Law::Mean}});
+}
+
+}  // namespace
+
 ServoOptions read_servo_options(const Section& root) {
   ServoOptions o;
   const auto s = root.child_if("servo");
   if (!s) return o;
-  o.interaction = s->choice<Interaction>("interaction",
-                                         {{"current", Interaction::Current},
-                                          {"desired", Interaction::Desired},
-                                          {"mean", Interaction::Mean}},
-                                         o.interaction);
+  o.law = read_law(*s, o.law);
   o.freedom = s->choice<Freedom>(
       "freedom", {{"six", Freedom::Six}, {"four", Freedom::Four}, {"three", Freedom::Three}},
       o.freedom);
   o.gain_per_s = s->number("gain_per_s", o.gain_per_s);
+  if (s->has("far_gain_per_s")) o.far_gain_per_s = s->number("far_gain_per_s");
+  o.gain_slope_per_s = s->number("gain_slope_per_s", o.gain_slope_per_s);
+  o.smooth_start_per_s = s->number("smooth_start_per_s", o.smooth_start_per_s);
+  o.damping = s->number("damping", o.damping);
+  o.learning_gate = s->number("learning_gate", o.learning_gate);
+  o.forgetting = s->number("forgetting", o.forgetting);
+  o.initial_covariance = s->number("initial_covariance", o.initial_covariance);
   return checked(*s, o);
 }
 

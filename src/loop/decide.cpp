@@ -1,6 +1,7 @@
 #include "kestrel/loop/decide.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "kestrel/vehicle/limits.hpp"
 
@@ -24,16 +25,20 @@ Decision hovering(const std::optional<double>& stamp_s) {
   return decision;
 }
 
-Decision without_answer(double stamp_s, const DecisionState& state, const Task& task) {
-  if (!state.seen_stamp_s) return hovering(stamp_s);
+Decision without_answer(double stamp_s, const DecisionState& state, const Task& task,
+                        LawRefusal refusal) {
+  Decision decision = hovering(stamp_s);
+  decision.refusal = refusal;
+  if (!state.seen_stamp_s) return decision;
   const FailsafeCommand failsafe =
       after_loss(state.servo_command, stamp_s - *state.seen_stamp_s, task.loss);
-  if (failsafe.state == CommandState::Hover) return hovering(stamp_s);
-  Decision decision;
+  if (failsafe.state == CommandState::Hover) return decision;
   decision.wanted = failsafe.command;
   decision.command = failsafe.command;
   decision.state = failsafe.state;
-  decision.next = {failsafe.command, stamp_s, state.servo_command, state.seen_stamp_s};
+  decision.next = state;
+  decision.next.sent = failsafe.command;
+  decision.next.stamp_s = stamp_s;
   return decision;
 }
 
@@ -42,6 +47,25 @@ VelocityCommand within_limits(const VelocityCommand& wanted, double stamp_s,
   const bool known = state.stamp_s && stamp_s - *state.stamp_s <= task.loss.hover_after_s;
   if (!known) return VelocityCommand::hover();
   return limited(state.sent, wanted, task.limits, stamp_s - *state.stamp_s);
+}
+
+/// The motion of the camera since the previous frame, had the helicopter flown what was sent; empty
+/// when the target was not servoed on in that frame.
+std::optional<Vector6d> camera_motion(double stamp_s, const DecisionState& state,
+                                      const Mount& level_from_camera) {
+  if (!state.stamp_s || state.seen_stamp_s != state.stamp_s) return std::nullopt;
+  const Eigen::Vector4d sent = state.sent.vector();
+  const BodyTwist body{sent.head<3>(), {0, 0, sent[3]}};
+  const CameraTwist camera = level_from_camera.inverse() * body;
+  return Vector6d(camera.vector() * (stamp_s - *state.stamp_s));
+}
+
+LawAnswer answer_of_law(const std::vector<Feature>& level, const Mount& level_from_camera,
+                        double stamp_s, const DecisionState& state, const Task& task) {
+  LawInput input = law_input(level, task);
+  input.camera_motion = camera_motion(stamp_s, state, level_from_camera);
+  input.time_s = stamp_s - state.law_since_s.value_or(stamp_s);
+  return law_on_body(std::move(input), level_from_camera, task.servo, state.law);
 }
 
 }  // namespace
@@ -58,14 +82,17 @@ Decision decide(const std::vector<Feature>& measured, const std::optional<Attitu
     level = turned(measured, level_camera_from_camera(mount.rotation, *attitude));
     mount = levelled(mount, *attitude);
   }
+  const LawAnswer answer = answer_of_law(level, mount, stamp_s, state, task);
+  if (!answer.twist)
+    return without_answer(stamp_s, state, task, level.empty() ? LawRefusal::None : answer.refusal);
   Decision decision;
-  decision.servo = servo(level, desired_features(task), mount, task.servo);
-  if (!decision.servo) return without_answer(stamp_s, state, task);
+  decision.servo = Servo{*answer.twist, answer.error, answer.condition};
   decision.body_twist = mount * decision.servo->twist;
   decision.wanted = to_command(decision.body_twist);
   decision.command = within_limits(decision.wanted, stamp_s, state, task);
   decision.state = CommandState::Servo;
-  decision.next = {decision.command, stamp_s, decision.command, stamp_s};
+  decision.next = {decision.command, stamp_s,     decision.command,
+                   stamp_s,          answer.next, state.law_since_s.value_or(stamp_s)};
   return decision;
 }
 

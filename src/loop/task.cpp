@@ -52,9 +52,25 @@ void check_goal(const Task& task) {
   require(task.goal.rotation.col(2).dot(task.goal.translation) > 0,
           "goal: the camera would see the back of the target; the target's z axis must point away "
           "from the camera");
-  require(servo(desired, desired, task.body_from_camera, task.servo).has_value(),
-          "goal: from there the corners determine no command; come nearer, look less along the "
-          "plane, or choose a smaller servo.freedom");
+  const LawAnswer there = law_on_body(law_input(desired, task), task.body_from_camera, task.servo);
+  require(there.twist.has_value(),
+          std::string("goal: from there the corners determine no command (") + name(there.refusal) +
+              "); come nearer, look less along the plane, or choose a smaller servo.freedom");
+}
+
+/// The pose that takes the corners nearest to these points of the camera, in the least squares of
+/// their distances (Kabsch 1976; exact for the corners of a pose).
+TargetPose pose_of_corners(const std::vector<Feature>& measured, const Task& task) {
+  const std::array<Eigen::Vector3d, 4> corners = target_corners(task);  // their mean is zero
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Feature& f = measured[i];
+    const Eigen::Vector3d p = f.depth_m * Eigen::Vector3d(f.at.x, f.at.y, 1);
+    centre += p / double(corners.size());
+    spread += p * corners[i].transpose();
+  }
+  return {nearest_rotation(spread), centre};
 }
 
 }  // namespace
@@ -80,6 +96,24 @@ std::array<Eigen::Vector3d, 4> target_corners(const Task& task) {
 
 std::vector<Feature> desired_features(const Task& task) {
   return features(task.goal, target_corners(task));
+}
+
+LawInput law_input(const std::vector<Feature>& measured, const Task& task) {
+  LawInput input;
+  input.measured = measured;
+  input.desired = desired_features(task);
+  if (measured.size() != input.desired.size()) return input;
+  const TargetPose pose = pose_of_corners(measured, task);
+  const auto goal_from_camera = task.goal * pose.inverse();
+  const auto camera_from_goal = goal_from_camera.inverse();
+  const Eigen::Vector3d n_in_goal = task.goal.rotation.col(2);
+  const double distance_m = n_in_goal.dot(task.goal.translation);  // > 0: seen from the front
+  input.camera_from_target = pose;
+  input.goal_from_target = task.goal;
+  input.goal_from_camera = Displacement{goal_from_camera.rotation, goal_from_camera.translation};
+  input.camera_from_goal_homography =
+      camera_from_goal.rotation + camera_from_goal.translation * n_in_goal.transpose() / distance_m;
+  return input;
 }
 
 }  // namespace kestrel

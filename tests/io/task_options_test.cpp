@@ -89,7 +89,7 @@ TEST_F(TaskOptions, PutEveryOtherKeyInItsPlace) {
       "loss: {hold_s: 0.2, decay_s: 0.3, hover_after_s: 1.5}\n");
   EXPECT_EQ(read_pose_options(root).corner_noise_px, 0.7);
   const ServoOptions servo = read_servo_options(root);
-  EXPECT_EQ(servo.interaction, Interaction::Desired);
+  EXPECT_EQ(servo.law, Law::Des);
   EXPECT_EQ(servo.freedom, Freedom::Three);
   EXPECT_EQ(servo.gain_per_s, 0.9);
   const CommandLimits limits = read_command_limits(root);
@@ -106,13 +106,37 @@ TEST_F(TaskOptions, NameEveryWordOfAChoice) {
   const auto servo_of = [&](const std::string& keys) {
     return read_servo_options(load("servo: {" + keys + "}\n"));
   };
-  EXPECT_EQ(servo_of("interaction: current").interaction, Interaction::Current);
-  EXPECT_EQ(servo_of("interaction: mean").interaction, Interaction::Mean);
+  EXPECT_EQ(servo_of("interaction: current").law, Law::Cur);
+  EXPECT_EQ(servo_of("interaction: mean").law, Law::Mean);
   EXPECT_EQ(servo_of("freedom: six").freedom, Freedom::Six);
   EXPECT_EQ(servo_of("freedom: four").freedom, Freedom::Four);
   EXPECT_THAT(
       error_of("servo: {interaction: average}\n", read_servo_options),
       HasSubstr("t.yaml:1: servo.interaction: is 'average'; write current, desired or mean"));
+}
+
+TEST_F(TaskOptions, ReadEveryLawAndItsNumbers) {
+  for (const Law law : all_laws()) {
+    const Section root = load("servo: {law: " + std::string(name(law)) + "}\n");
+    EXPECT_EQ(read_servo_options(root).law, law);
+  }
+  const Section root = load(
+      "servo: {law: rls, gain_per_s: 4, far_gain_per_s: 0.4, gain_slope_per_s: 20,\n"
+      "  smooth_start_per_s: 3, damping: 0.1, learning_gate: 0.02, forgetting: 0.9,\n"
+      "  initial_covariance: 7}\n");
+  const ServoOptions o = read_servo_options(root);
+  EXPECT_EQ(o.far_gain_per_s, 0.4);
+  EXPECT_EQ(o.gain_slope_per_s, 20);
+  EXPECT_EQ(o.smooth_start_per_s, 3);
+  EXPECT_EQ(o.damping, 0.1);
+  EXPECT_EQ(o.learning_gate, 0.02);
+  EXPECT_EQ(o.forgetting, 0.9);
+  EXPECT_EQ(o.initial_covariance, 7);
+  EXPECT_NO_THROW(root.done());
+  EXPECT_THAT(error_of("servo: {law: mean, interaction: mean}\n", read_servo_options),
+              HasSubstr("t.yaml:1: servo.interaction: stands beside law"));
+  EXPECT_THAT(error_of("servo: {law: best}\n", read_servo_options),
+              HasSubstr("t.yaml:1: servo.law: is 'best'; write cur, "));
 }
 
 TEST_F(TaskOptions, NameTheSectionOfAnOptionOutOfRange) {

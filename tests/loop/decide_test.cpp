@@ -19,8 +19,7 @@ using test::Flight;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kFrame = 1.0 / 30;
-constexpr Interaction kInteractions[] = {Interaction::Current, Interaction::Desired,
-                                         Interaction::Mean};
+constexpr Law kLaws[] = {Law::Cur, Law::Des, Law::Mean};
 const Mount kMounts[] = {test::forward_camera(), test::down_camera()};
 
 /// Limits that never act.
@@ -45,11 +44,11 @@ Decision decide_at(const Flight& flight, const Task& task) {
 TEST(Decide, WantsWhatTheLawOfThePapersWants) {
   test::Random random("decide oracle");
   for (const Mount& mount : kMounts) {
-    for (const Interaction interaction : kInteractions) {
+    for (const Law law : kLaws) {
       for (const Freedom freedom : {Freedom::Four, Freedom::Three}) {
         for (int i = 0; i < 20; ++i) {
           Task task = test::example_task(mount);
-          task.servo = {interaction, freedom, random.uniform(0.2, 2)};
+          task.servo = {law, freedom, random.uniform(0.2, 2)};
           const Flight flight = random_flight(random);
           const Decision decision = decide_at(flight, task);
           ASSERT_TRUE(decision.servo);
@@ -81,7 +80,7 @@ TEST(Decide, MovesTheErrorAtTheRateOfTheLaw) {
     for (int i = 0; i < 40; ++i) {
       Task task = test::example_task(mount);
       task.limits = kNoLimits;
-      task.servo = {Interaction::Current, Freedom::Four, 0.8};
+      task.servo = {Law::Cur, Freedom::Four, 0.8};
       const Flight flight = random_flight(random);
       const Decision decision = decide_at(flight, task);
       ASSERT_TRUE(decision.servo);
@@ -112,9 +111,9 @@ TEST(Decide, MovesTheErrorAtTheRateOfTheLaw) {
 // each matrix and mount, and stays.
 TEST(Decide, BringsTheHelicopterToItsGoal) {
   for (const Mount& mount : kMounts) {
-    for (const Interaction interaction : kInteractions) {
+    for (const Law law : kLaws) {
       Task task = test::example_task(mount);
-      task.servo.interaction = interaction;
+      task.servo.law = law;
       const auto target = test::target_for(task);
       Flight flight{mount.rotation * Eigen::Vector3d(0.6, -0.4, -1), {0, 0, 0.2}};
       DecisionState state;
@@ -131,18 +130,73 @@ TEST(Decide, BringsTheHelicopterToItsGoal) {
       // 30 s of gain 1, less what the limits take, leave e^-25 of a metre; what remains is the
       // lever arm of 0.3 m that swings with the tilt, followed with a lag: 0.15 rad at 3 rad/s.
       const Eigen::Vector3d goal = Flight{}.camera(mount).translation;
-      EXPECT_LT((flight.camera(mount).translation - goal).norm(), 0.05) << name(interaction);
-      EXPECT_LT(std::abs(flight.attitude.yaw), 0.02) << name(interaction);
+      EXPECT_LT((flight.camera(mount).translation - goal).norm(), 0.05) << name(law);
+      EXPECT_LT(std::abs(flight.attitude.yaw), 0.02) << name(law);
     }
   }
+}
+
+// Every law of points flies it there, the learning ones on what the commands say of the motion.
+TEST(Decide, ArrivesWithEveryLawOfPoints) {
+  for (const Law law : {Law::CurZdes, Law::CurZarea, Law::CurZhomog, Law::MeanZdes, Law::Mjp,
+                        Law::PmjR, Law::PmjT, Law::Lm, Law::Broyden, Law::Rls}) {
+    Task task = test::example_task(kMounts[1]);
+    task.servo.law = law;
+    task.servo.smooth_start_per_s = 4;
+    ASSERT_NO_THROW(task.check()) << name(law);
+    const auto target = test::target_for(task);
+    Flight flight{kMounts[1].rotation * Eigen::Vector3d(0.4, -0.3, -0.6), {0, 0, 0.2}};
+    DecisionState state;
+    for (int k = 0; k < 600; ++k) {
+      const auto measured = test::seen_from(flight.camera(kMounts[1]), target, task);
+      const Decision decision = decide(measured, flight.attitude, k * kFrame, state, task);
+      ASSERT_EQ(decision.state, CommandState::Servo) << name(law) << name(decision.refusal) << k;
+      flight = flight.after(decision.command, kFrame);
+      state = decision.next;
+    }
+    // 20 s of gain 1, less the start and the limits: e^-15 of a metre; lm's slow modes 0.6 of it.
+    const Eigen::Vector3d goal = Flight{}.camera(kMounts[1]).translation;
+    EXPECT_LT((flight.camera(kMounts[1]).translation - goal).norm(), 0.01) << name(law);
+  }
+}
+
+// The smooth start counts from the first answer, and again after hover.
+TEST(Decide, StartsSmoothlyAfterEachHover) {
+  Task task = test::example_task(kMounts[1]);
+  task.servo.smooth_start_per_s = 4;
+  const Flight flight{{0.3, 0.2, -0.2}, {0, 0, 0.1}};
+  const auto measured = test::seen_from(flight.camera(kMounts[1]), test::target_for(task), task);
+  DecisionState state;
+  for (const double start_s : {0.0, 100.0}) {
+    const Decision first = decide(measured, Attitude{}, start_s, state, task);
+    EXPECT_LT(first.wanted.vector().norm(), 1e-14) << start_s;
+    const Decision second = decide(measured, Attitude{}, start_s + 0.5, first.next, task);
+    const Decision far = decide(measured, Attitude{}, start_s + 0.9, second.next, task);
+    // The view has not changed: what is there is 1 - exp(-mu t) of the law.
+    const double share = (1 - std::exp(-4 * 0.5)) / (1 - std::exp(-4 * 0.9));
+    EXPECT_LT((second.wanted.vector() - share * far.wanted.vector()).norm(), 1e-13);
+    EXPECT_GT(second.wanted.vector().norm(), 0.05);
+    state = decide({}, Attitude{}, start_s + 50, far.next, task).next;  // long lost: hover
+  }
+}
+
+TEST(Decide, SaysWhyTheLawRefuses) {
+  const Task task = test::example_task(kMounts[1]);
+  auto measured = test::seen_from(Flight{}.camera(kMounts[1]), test::target_for(task), task);
+  EXPECT_EQ(decide(measured, Attitude{}, 1, {}, task).refusal, LawRefusal::None);
+  EXPECT_EQ(decide({}, Attitude{}, 1, {}, task).refusal, LawRefusal::None);
+  measured[1].depth_m = -1;
+  EXPECT_EQ(decide(measured, Attitude{}, 1, {}, task).refusal, LawRefusal::Depth);
+  measured.assign(4, measured[0]);
+  EXPECT_EQ(decide(measured, Attitude{}, 1, {}, task).refusal, LawRefusal::Coincident);
 }
 
 // Without tilt it arrives exactly.
 TEST(Decide, ArrivesExactlyWithoutTilt) {
   for (const Mount& mount : kMounts) {
-    for (const Interaction interaction : kInteractions) {
+    for (const Law law : kLaws) {
       Task task = test::example_task(mount);
-      task.servo.interaction = interaction;
+      task.servo.law = law;
       const auto target = test::target_for(task);
       Flight flight{mount.rotation * Eigen::Vector3d(0.6, -0.4, -1), {0, 0, 0.2}};
       DecisionState state;
@@ -153,8 +207,8 @@ TEST(Decide, ArrivesExactlyWithoutTilt) {
         state = decision.next;
       }
       // 3 m of way at 1.5 m/s or less with gain 1: e^-20 m or less is left.
-      EXPECT_LT(flight.ned.norm(), 1e-7) << name(interaction);
-      EXPECT_LT(std::abs(flight.attitude.yaw), 1e-7) << name(interaction);
+      EXPECT_LT(flight.ned.norm(), 1e-7) << name(law);
+      EXPECT_LT(std::abs(flight.attitude.yaw), 1e-7) << name(law);
     }
   }
 }
@@ -277,7 +331,7 @@ TEST_F(Loss, IsAlsoALawWithoutAnAnswer) {
   const double last_s = take_off();
   const VelocityCommand last = state_.sent;
   auto one_place = task_;  // and L there, not at the goal
-  one_place.servo.interaction = Interaction::Current;
+  one_place.servo.law = Law::Cur;
   const Decision decision =
       decide(std::vector<Feature>(4, measured_[0]), Attitude{}, last_s + kFrame, state_, one_place);
   EXPECT_EQ(decision.state, CommandState::Hold);

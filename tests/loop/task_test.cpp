@@ -10,6 +10,7 @@
 #include "kestrel/geometry/rotation.hpp"
 
 #include "loop/flight.hpp"
+#include "support/random.hpp"
 
 namespace kestrel {
 namespace {
@@ -119,6 +120,39 @@ TEST(Task, DesiresTheCornersAsTheGoalSeesThem) {
   EXPECT_NEAR(desired[1].at.x, (0.5 + 0.3) / 2, 1e-15);
   EXPECT_NEAR(desired[1].at.y, (-0.4 - 0.2) / 2, 1e-15);
   EXPECT_EQ(desired[1].depth_m, 2);
+}
+
+// What the laws are told of a view: the pose it was made from, the displacement to the goal, and a
+// homography that takes the goal's points to the measured ones.
+TEST(LawInput, TellsThePoseOfAView) {
+  test::Random random("law input");
+  const Task task = test::example_task(test::forward_camera());
+  for (int i = 0; i < 50; ++i) {
+    const TargetPose pose{rotation_from_vector(random.rotation_vector(0.6)),
+                          random.vector3(0.5) + Eigen::Vector3d(0, 0, 3)};
+    const LawInput input = law_input(features(pose, target_corners(task)), task);
+    ASSERT_TRUE(input.camera_from_target && input.goal_from_camera &&
+                input.camera_from_goal_homography);
+    EXPECT_LT((input.camera_from_target->rotation - pose.rotation).norm(), 1e-13);
+    EXPECT_LT((input.camera_from_target->translation - pose.translation).norm(), 1e-13);
+    const auto goal_from_camera = task.goal * pose.inverse();
+    EXPECT_LT((input.goal_from_camera->rotation - goal_from_camera.rotation).norm(), 1e-13);
+    EXPECT_LT((input.goal_from_camera->translation - goal_from_camera.translation).norm(), 1e-12);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Feature& there = input.desired[k];
+      const Eigen::Vector3d m =
+          *input.camera_from_goal_homography * Eigen::Vector3d(there.at.x, there.at.y, 1);
+      EXPECT_NEAR(m.x() / m.z(), input.measured[k].at.x, 1e-13);
+      EXPECT_NEAR(m.y() / m.z(), input.measured[k].at.y, 1e-13);
+      EXPECT_NEAR(m.z() * there.depth_m, input.measured[k].depth_m, 1e-12);  // scale is metric
+    }
+  }
+}
+
+TEST(LawInput, HasNoPoseWithoutTheCorners) {
+  const Task task = test::example_task(test::forward_camera());
+  EXPECT_FALSE(law_input({}, task).camera_from_target);
+  EXPECT_EQ(law_input({}, task).desired.size(), 4u);
 }
 
 }  // namespace

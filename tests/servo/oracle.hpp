@@ -74,8 +74,8 @@ inline OracleAnswer oracle_servo(const std::vector<Feature>& measured,
   const MatrixXr now = oracle_interaction(measured);
   const MatrixXr goal = oracle_interaction(desired);
   MatrixXr L = (now + goal) / 2;
-  if (options.interaction == Interaction::Current) L = now;
-  if (options.interaction == Interaction::Desired) L = goal;
+  if (options.law == Law::Cur) L = now;
+  if (options.law == Law::Des) L = goal;
   VectorXr e(2 * measured.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
     e[Eigen::Index(2 * i)] = Real(measured[i].at.x) - Real(desired[i].at.x);

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr Interaction kInteractions[] = {Interaction::Current, Interaction::Desired,
-                                         Interaction::Mean};
+constexpr Law kLaws[] = {Law::Cur, Law::Des, Law::Mean};
 constexpr Freedom kFreedoms[] = {Freedom::Six, Freedom::Four, Freedom::Three};
 const Mount kAtBody;  // camera and body are one: what ViSP calls EYEINHAND_CAMERA
 
@@ -34,10 +33,10 @@ TargetPose random_view(test::Random& random) {
 TEST(Servo, IsTheLawOfThePapers) {
   test::Random random("servo oracle");
   const auto corners = test::square(0.4);
-  for (const Interaction interaction : kInteractions) {
+  for (const Law law : kLaws) {
     for (const Freedom freedom : kFreedoms) {
       for (int i = 0; i < 60; ++i) {
-        const ServoOptions options{interaction, freedom, random.uniform(0.1, 2)};
+        const ServoOptions options{law, freedom, random.uniform(0.1, 2)};
         const Mount mount = random_mount(random);
         const auto measured = features(random_view(random), corners);
         const auto desired = features(random_view(random), corners);
@@ -48,7 +47,7 @@ TEST(Servo, IsTheLawOfThePapers) {
         // 7e-15 was seen.
         const double deviation =
             (answer->twist.vector() - expected.twist).norm() / expected.twist.norm();
-        EXPECT_LT(deviation, 1e-13) << name(interaction) << ' ' << name(freedom);
+        EXPECT_LT(deviation, 1e-13) << name(law) << ' ' << name(freedom);
         EXPECT_NEAR(answer->condition, expected.condition, 1e-9 * expected.condition);
         EXPECT_LT((answer->error - (test::stacked(measured) - test::stacked(desired))).norm(),
                   1e-15);
@@ -95,7 +94,7 @@ TEST(Servo, MovesTheErrorAtTheRateOfTheTrueMatrix) {
         return features((target_from_body * mount).inverse(), corners);
       };
       const auto measured = seen({}, 0);
-      const auto answer = servo(measured, desired, mount, {Interaction::Current, freedom, 0.8});
+      const auto answer = servo(measured, desired, mount, {Law::Cur, freedom, 0.8});
       ASSERT_TRUE(answer);
       const BodyTwist body_twist = mount * answer->twist;
       const Eigen::VectorXd rate =
@@ -130,7 +129,7 @@ TEST(Servo, DecaysAsAnExponentialWithTheTrueMatrix) {
   const Eigen::VectorXd e0 = test::stacked(three(pose)) - test::stacked(desired);
   const Mount mount = test::forward_mount({0.3, 0, 0.1});
   for (int k = 0; k < 2000; ++k) {
-    const ServoOptions options{Interaction::Current, Freedom::Six, gain_per_s};
+    const ServoOptions options{Law::Cur, Freedom::Six, gain_per_s};
     // Midpoint rule: second order in dt.
     const auto first = servo(three(pose), desired, mount, options);
     ASSERT_TRUE(first);
@@ -148,61 +147,59 @@ const auto kTutorialTarget = test::square(0.1);
 const TargetPose kTutorialGoal = test::pose_of({0, 0, 0.75}, {0, 0, 0});
 const TargetPose kTutorialStart = test::pose_of({0.15, -0.1, 1.0}, {10, -10, 50});
 
-Servo tutorial_answer(const TargetPose& pose, Interaction interaction, double gain_per_s) {
+Servo tutorial_answer(const TargetPose& pose, Law law, double gain_per_s) {
   const auto answer =
       servo(features(pose, kTutorialTarget), features(kTutorialGoal, kTutorialTarget), kAtBody,
-            {interaction, Freedom::Six, gain_per_s});
+            {law, Freedom::Six, gain_per_s});
   EXPECT_TRUE(answer);
   return answer.value_or(Servo{});
 }
 
 TEST(Servo, AnswersTheFirstTwistsOfTheTutorial) {
-  const auto expect_twist = [](Interaction interaction, std::array<double, 6> expected) {
-    const Vector6d v = tutorial_answer(kTutorialStart, interaction, 1).twist.vector();
+  const auto expect_twist = [](Law law, std::array<double, 6> expected) {
+    const Vector6d v = tutorial_answer(kTutorialStart, law, 1).twist.vector();
     // Six decimals are given.
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(v[i], expected[std::size_t(i)], 6e-7) << i;
   };
-  expect_twist(Interaction::Current, {.020066, -.089513, -.127833, .150247, .002328, 1.031707});
-  expect_twist(Interaction::Desired, {.199569, -.131016, .402333, -.071201, -.114750, .581608});
-  expect_twist(Interaction::Mean, {.378162, .004703, .268493, .188034, -.311916, .903438});
+  expect_twist(Law::Cur, {.020066, -.089513, -.127833, .150247, .002328, 1.031707});
+  expect_twist(Law::Des, {.199569, -.131016, .402333, -.071201, -.114750, .581608});
+  expect_twist(Law::Mean, {.378162, .004703, .268493, .188034, -.311916, .903438});
 }
 
 TEST(Servo, EndsWhereTheTutorialEnds) {
-  const auto expect_error = [](Interaction interaction, double expected) {
+  const auto expect_error = [](Law law, double expected) {
     TargetPose pose = kTutorialStart;
-    EXPECT_NEAR(tutorial_answer(pose, interaction, 0.5).error.norm(), .469108342, 6e-10);
+    EXPECT_NEAR(tutorial_answer(pose, law, 0.5).error.norm(), .469108342, 6e-10);
     for (int k = 0; k < 150; ++k) {
-      const Servo answer = tutorial_answer(pose, interaction, 0.5);
+      const Servo answer = tutorial_answer(pose, law, 0.5);
       pose = moved(pose.inverse(), answer.twist, 0.04).inverse();
     }
     // Nine decimals after the leading zeros are given.
-    EXPECT_NEAR(tutorial_answer(pose, interaction, 0.5).error.norm(), expected, 1e-11);
+    EXPECT_NEAR(tutorial_answer(pose, law, 0.5).error.norm(), expected, 1e-11);
   };
-  expect_error(Interaction::Current, 2.253876834e-02);
-  expect_error(Interaction::Desired, 3.406660226e-02);
-  expect_error(Interaction::Mean, 2.868349185e-02);
+  expect_error(Law::Cur, 2.253876834e-02);
+  expect_error(Law::Des, 3.406660226e-02);
+  expect_error(Law::Mean, 2.868349185e-02);
 }
 
 // Malis 2004: the mean matrix is right to second order, the other two to first.
 TEST(Servo, HasTheOrderOfItsMatrix) {
   const Vector6d direction = (Vector6d() << .20, -.15, .25, .35, -.25, .60).finished();
-  const auto miss = [&](Interaction interaction, double size) {
+  const auto miss = [&](Law law, double size) {
     const CameraTwist away = CameraTwist::from_vector(direction * size);
     const TargetPose pose = moved(kTutorialGoal.inverse(), away, 1).inverse();
-    return (tutorial_answer(pose, interaction, 1).twist.vector() + away.vector()).norm();
+    return (tutorial_answer(pose, law, 1).twist.vector() + away.vector()).norm();
   };
-  const auto slope = [&](Interaction interaction) {
-    return std::log2(miss(interaction, 0.0125) / miss(interaction, 0.00625));
-  };
-  EXPECT_NEAR(slope(Interaction::Current), 1.995, 6e-4);
-  EXPECT_NEAR(slope(Interaction::Desired), 2.004, 6e-4);
-  EXPECT_NEAR(slope(Interaction::Mean), 2.994, 6e-4);
+  const auto slope = [&](Law law) { return std::log2(miss(law, 0.0125) / miss(law, 0.00625)); };
+  EXPECT_NEAR(slope(Law::Cur), 1.995, 6e-4);
+  EXPECT_NEAR(slope(Law::Des), 2.004, 6e-4);
+  EXPECT_NEAR(slope(Law::Mean), 2.994, 6e-4);
 }
 
 double condition_at(const TargetPose& pose, const std::array<Eigen::Vector3d, 4>& points,
                     const Mount& mount, Freedom freedom) {
   const auto seen = features(pose, points);
-  const auto answer = servo(seen, seen, mount, {Interaction::Current, freedom, 1});
+  const auto answer = servo(seen, seen, mount, {Law::Cur, freedom, 1});
   return answer ? answer->condition : kInf;
 }
 
@@ -244,13 +241,13 @@ TEST(Servo, CarriesTheLeverArm) {
 
 TEST(Servo, UsesOnlyThePermittedVelocities) {
   test::Random random("servo permitted");
-  for (const Interaction interaction : kInteractions) {
+  for (const Law law : kLaws) {
     for (int i = 0; i < 50; ++i) {
       const Mount mount = random_mount(random);
       const auto measured = features(random_view(random), test::square(0.4));
       const auto desired = features(random_view(random), test::square(0.4));
-      const auto four = servo(measured, desired, mount, {interaction, Freedom::Four, 1});
-      const auto three = servo(measured, desired, mount, {interaction, Freedom::Three, 1});
+      const auto four = servo(measured, desired, mount, {law, Freedom::Four, 1});
+      const auto three = servo(measured, desired, mount, {law, Freedom::Three, 1});
       ASSERT_TRUE(four && three);
       // Rounding of the way to the camera and back, at speeds of some m/s.
       EXPECT_LT((mount * four->twist).angular.head<2>().norm(), 1e-13);
@@ -262,7 +259,7 @@ TEST(Servo, UsesOnlyThePermittedVelocities) {
 // vpServo computes the desired matrix once and keeps it: a goal that moves must move the answer.
 TEST(Servo, ForgetsTheDesiredMatrixOfTheLastCall) {
   const auto measured = features(kTutorialStart, kTutorialTarget);
-  const ServoOptions options{Interaction::Desired, Freedom::Six, 1};
+  const ServoOptions options{Law::Des, Freedom::Six, 1};
   for (const double depth : {0.75, 1.5, 0.75, 3.0}) {
     auto desired = features(kTutorialGoal, kTutorialTarget);
     for (Feature& f : desired) f.depth_m = depth;
@@ -274,14 +271,14 @@ TEST(Servo, ForgetsTheDesiredMatrixOfTheLastCall) {
 }
 
 TEST(Servo, IsProportionalToTheGain) {
-  const Vector6d one = tutorial_answer(kTutorialStart, Interaction::Mean, 1).twist.vector();
-  const Vector6d three = tutorial_answer(kTutorialStart, Interaction::Mean, 3).twist.vector();
+  const Vector6d one = tutorial_answer(kTutorialStart, Law::Mean, 1).twist.vector();
+  const Vector6d three = tutorial_answer(kTutorialStart, Law::Mean, 3).twist.vector();
   EXPECT_LT((three - 3 * one).norm(), 1e-14);
 }
 
 TEST(Servo, StandsStillAtTheGoal) {
-  for (const Interaction interaction : kInteractions) {
-    EXPECT_EQ(tutorial_answer(kTutorialGoal, interaction, 1).twist.vector(), Vector6d::Zero());
+  for (const Law law : kLaws) {
+    EXPECT_EQ(tutorial_answer(kTutorialGoal, law, 1).twist.vector(), Vector6d::Zero());
   }
 }
 
@@ -289,7 +286,7 @@ class ServoOfNonsense : public testing::Test {
  protected:
   static std::optional<Servo> ask(const std::vector<Feature>& measured,
                                   const std::vector<Feature>& desired) {
-    return servo(measured, desired, kAtBody, {Interaction::Mean, Freedom::Six, 1});
+    return servo(measured, desired, kAtBody, {Law::Mean, Freedom::Six, 1});
   }
   const std::vector<Feature> good_ = features(kTutorialGoal, kTutorialTarget);
 };
@@ -330,8 +327,8 @@ TEST_F(ServoOfNonsense, IsEmptyForPointsOnALine) {
     for (int i = 0; i < 4; ++i) line.push_back({{0.1 * i - 0.15, 0.05 * i + off * i * i}, 1});
     auto there = line;
     for (Feature& f : there) f.at.x += 0.01;
-    for (const Interaction interaction : kInteractions) {
-      const ServoOptions options{interaction, Freedom::Six, 1};
+    for (const Law law : kLaws) {
+      const ServoOptions options{law, Freedom::Six, 1};
       EXPECT_FALSE(servo(line, there, kAtBody, options)) << off;
     }
   }
@@ -340,7 +337,7 @@ TEST_F(ServoOfNonsense, IsEmptyForPointsOnALine) {
 TEST_F(ServoOfNonsense, IsEmptyForPointsAtOnePlace) {
   const std::vector<Feature> place(4, Feature{{0.1, 0.1}, 1});
   for (const Freedom freedom : kFreedoms) {
-    EXPECT_FALSE(servo(place, place, kAtBody, {Interaction::Current, freedom, 1}));
+    EXPECT_FALSE(servo(place, place, kAtBody, {Law::Cur, freedom, 1}));
   }
 }
 
@@ -381,7 +378,7 @@ TEST_F(ServoOfNonsense, IsEmptyForAMountThatIsNoRotation) {
 
 TEST_F(ServoOfNonsense, IsEmptyForAGainThatIsNotFinite) {
   for (const double bad : {kNan, kInf, -kInf}) {
-    EXPECT_FALSE(servo(good_, good_, kAtBody, {Interaction::Mean, Freedom::Six, bad}));
+    EXPECT_FALSE(servo(good_, good_, kAtBody, {Law::Mean, Freedom::Six, bad}));
   }
 }
 
@@ -401,8 +398,7 @@ TEST_F(ServoOfNonsense, IsSilent) {
       const int field = random.integer(0, 2);
       (field == 0 ? f.at.x : field == 1 ? f.at.y : f.depth_m) = number;
     }
-    const ServoOptions options{kInteractions[random.integer(0, 2)], kFreedoms[random.integer(0, 2)],
-                               1};
+    const ServoOptions options{kLaws[random.integer(0, 2)], kFreedoms[random.integer(0, 2)], 1};
     std::optional<Servo> answer;
     EXPECT_NO_THROW(answer = servo(measured, desired, random_mount(random), options));
     if (!answer) continue;
@@ -415,11 +411,9 @@ TEST_F(ServoOfNonsense, IsSilent) {
 }
 
 TEST(Servo, GivesTheSameBitsInAnyThread) {
-  const Vector6d here = tutorial_answer(kTutorialStart, Interaction::Mean, 1).twist.vector();
+  const Vector6d here = tutorial_answer(kTutorialStart, Law::Mean, 1).twist.vector();
   Vector6d there = Vector6d::Zero();
-  std::thread([&] {
-    there = tutorial_answer(kTutorialStart, Interaction::Mean, 1).twist.vector();
-  }).join();
+  std::thread([&] { there = tutorial_answer(kTutorialStart, Law::Mean, 1).twist.vector(); }).join();
   EXPECT_EQ(here, there);
 }
 
@@ -427,7 +421,7 @@ TEST(ServoOptions, CheckNamesTheGainAndItsUnit) {
   EXPECT_NO_THROW(ServoOptions{}.check());
   for (const double bad : {0.0, -0.5, kNan, kInf}) {
     try {
-      ServoOptions{Interaction::Mean, Freedom::Four, bad}.check();
+      ServoOptions{Law::Mean, Freedom::Four, bad}.check();
       ADD_FAILURE() << bad;
     } catch (const std::invalid_argument& e) {
       EXPECT_THAT(e.what(), testing::StartsWith("gain_per_s: must be positive and finite (1/s)"));
@@ -435,10 +429,72 @@ TEST(ServoOptions, CheckNamesTheGainAndItsUnit) {
   }
 }
 
-TEST(Interaction, HasAName) {
-  EXPECT_STREQ(name(Interaction::Current), "current");
-  EXPECT_STREQ(name(Interaction::Desired), "desired");
-  EXPECT_STREQ(name(Interaction::Mean), "mean");
+TEST(ServoOptions, CheckNamesWhatBelongsToTheLaw) {
+  const auto complaint = [](auto change) -> std::string {
+    ServoOptions options;
+    change(options);
+    try {
+      options.check();
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+    return "";
+  };
+  using testing::StartsWith;
+  EXPECT_THAT(complaint([](ServoOptions& o) { o.far_gain_per_s = 0.6; }),
+              StartsWith("far_gain_per_s: must be"));
+  EXPECT_THAT(complaint([](ServoOptions& o) { o.gain_slope_per_s = -1; }),
+              StartsWith("gain_slope_per_s: must be"));
+  EXPECT_THAT(complaint([](ServoOptions& o) { o.forgetting = 0; }),
+              StartsWith("forgetting: must be"));
+  EXPECT_EQ(complaint([](ServoOptions& o) { o.far_gain_per_s = 0.5; }), "");
+}
+
+TEST(ServoOptions, BecomeThoseOfTheLaw) {
+  ServoOptions options;
+  options.law = Law::Rls;
+  options.gain_per_s = 4;
+  EXPECT_EQ(law_options(options).gain.at(10), 4);
+  options.far_gain_per_s = 0.4;
+  options.gain_slope_per_s = 30;
+  options.smooth_start_per_s = 1;
+  options.damping = 2;
+  options.learning_gate = 3;
+  options.forgetting = 0.4;
+  options.initial_covariance = 5;
+  const LawOptions law = law_options(options);
+  EXPECT_EQ(law.law, Law::Rls);
+  EXPECT_EQ(law.solver, LawSolver::Visp);
+  EXPECT_EQ(law.gain.at(0), 4);
+  EXPECT_NEAR(law.gain.at(1e9), 0.4, 1e-15);
+  EXPECT_EQ(law.gain.slope_at_zero_per_s, 30);
+  EXPECT_EQ(law.max_condition, kLargestCondition);
+  EXPECT_EQ(law.smooth_start_per_s, 1);
+  EXPECT_EQ(law.damping, 2);
+  EXPECT_EQ(law.learning_gate, 3);
+  EXPECT_EQ(law.forgetting, 0.4);
+  EXPECT_EQ(law.initial_covariance, 5);
+}
+
+TEST(LawOnBody, SaysWhyThereIsNoAnswer) {
+  LawInput input;
+  input.measured = input.desired = features(kTutorialGoal, kTutorialTarget);
+  Mount mirrored;
+  mirrored.rotation(0, 0) = -1;
+  LawState state;
+  state.features = Eigen::VectorXd::Ones(3);
+  const LawAnswer unreachable = law_on_body(input, mirrored, {}, state);
+  EXPECT_EQ(unreachable.refusal, LawRefusal::Unreachable);
+  EXPECT_FALSE(unreachable.twist);
+  EXPECT_EQ(unreachable.next.features, state.features);
+  ServoOptions endless;
+  endless.gain_per_s = kInf;
+  EXPECT_EQ(law_on_body(input, kAtBody, endless).refusal, LawRefusal::NotFinite);
+  input.measured.pop_back();
+  EXPECT_EQ(law_on_body(input, kAtBody, {}).refusal, LawRefusal::Unequal);
+}
+
+TEST(Freedom, HasAName) {
   EXPECT_STREQ(name(Freedom::Six), "six");
   EXPECT_STREQ(name(Freedom::Four), "four");
   EXPECT_STREQ(name(Freedom::Three), "three");

@@ -73,12 +73,12 @@ double position_error_m(const HelicopterState& s) {
 TEST(FeatureLoop, FourFreedomsReachTheGoalWithinTheLimits) {
   Task task = benchmark_task();
   task.limits = CommandLimits{};
-  for (const auto interaction : {Interaction::Current, Interaction::Desired, Interaction::Mean}) {
-    task.servo.interaction = interaction;
+  for (const auto law : {Law::Cur, Law::Des, Law::Mean}) {
+    task.servo.law = law;
     for (const double yaw : {0.0, -12 * kDegree}) {
       const HelicopterState end = flight(task, yaw, 40).end();
-      EXPECT_LT(position_error_m(end), 0.10) << name(interaction) << " from yaw " << yaw;
-      EXPECT_LT(std::abs(end.yaw), 2 * kDegree) << name(interaction) << " from yaw " << yaw;
+      EXPECT_LT(position_error_m(end), 0.10) << name(law) << " from yaw " << yaw;
+      EXPECT_LT(std::abs(end.yaw), 2 * kDegree) << name(law) << " from yaw " << yaw;
     }
   }
 }
@@ -119,7 +119,7 @@ TEST(FeatureLoop, LossOfTheTargetStopsTheVehicleInLessThanAMetre) {
   Task task = benchmark_task();
   task.limits = CommandLimits{};
   task.servo.freedom = Freedom::Three;
-  task.servo.interaction = Interaction::Desired;
+  task.servo.law = Law::Des;
   Weather weather;
   weather.blind_from_s = 2;
   const Flight approach = flight(task, 0, 2, weather);

@@ -13,18 +13,21 @@ namespace kestrel {
 
 /// What the decision carries from frame to frame.
 struct DecisionState {
-  VelocityCommand sent;                // the previous command, after limits
-  std::optional<double> stamp_s;       // of the previous frame
-  VelocityCommand servo_command;       // the last one the law decided, after limits
-  std::optional<double> seen_stamp_s;  // of the frame it was decided for
+  VelocityCommand sent;                 // the previous command, after limits
+  std::optional<double> stamp_s;        // of the previous frame
+  VelocityCommand servo_command;        // the last one the law decided, after limits
+  std::optional<double> seen_stamp_s;   // of the frame it was decided for
+  LawState law{};                       // what the law has learned, and how it began
+  std::optional<double> law_since_s{};  // stamp of its first answer after hover
 };
 
 /// From features to a command.
 struct Decision {
-  std::optional<Servo> servo;  // when the target was seen and the law has an answer
-  BodyTwist body_twist;        // of the body (levelled when the attitude is known); zero without
-  VelocityCommand wanted;      // before the limits
-  VelocityCommand command;     // what is sent: finite, within the limits
+  std::optional<Servo> servo;             // when the target was seen and the law has an answer
+  LawRefusal refusal = LawRefusal::None;  // why not, when the target was seen
+  BodyTwist body_twist;     // of the body (levelled when the attitude is known); zero without
+  VelocityCommand wanted;   // before the limits
+  VelocityCommand command;  // what is sent: finite, within the limits
   CommandState state = CommandState::Hover;
   DecisionState next;
 };
@@ -36,6 +39,10 @@ struct Decision {
 /// With an attitude the features are turned into the levelled camera and the lever arm into the
 /// levelled body, so that the law is exact in the heading frame the command is for. Without one the
 /// camera is taken as it is, and the tilt of the helicopter is answered as if it were an error.
+///
+/// The laws that want a pose or a homography get those of the levelled target, and the laws that
+/// learn are told that the camera moved from frame to frame as the last command said: what is known
+/// of it without a second sensor.
 ///
 /// The change of the command is limited over the time since the previous frame. The first frame has
 /// none, and after a gap longer than loss.hover_after_s nothing is known of what the helicopter

@@ -39,4 +39,9 @@ std::array<Eigen::Vector3d, 4> target_corners(const Task& task);
 /// What the levelled camera is to see of those corners.
 std::vector<Feature> desired_features(const Task& task);
 
+/// All that a law may be told of a view: measured are the corners in the levelled camera, in the
+/// order of desired_features. Their points in space give the pose, and the pose the displacement
+/// to the goal and the homography of the target's plane. Without motion of the camera and time.
+LawInput law_input(const std::vector<Feature>& measured, const Task& task);
+
 }  // namespace kestrel
