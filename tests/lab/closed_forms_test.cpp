@@ -86,7 +86,7 @@ TEST(ClosedForms, MeansTurnByTheirOwnLaws) {
 }
 
 TEST(ClosedForms, NoiseAtTheGoalIsFilteredByTheLoop) {
-  // Pose deviation of 60 000 frames at 1 px: mm, then deg; those published for seed 42 and those
+  // Pose deviation of 60 000 frames at 1 px: mm, then deg; those published of a run and those
   // predicted, sqrt(a / (2 - a)) |rows of L*^+| sigma / f.
   const std::array<double, 6> published{4.62, 4.57, .418, .343, .347, .0325};
   const std::array<double, 6> predicted{4.66, 4.66, .432, .350, .350, .033};
@@ -106,8 +106,9 @@ TEST(ClosedForms, NoiseAtTheGoalIsFilteredByTheLoop) {
     const double mean = sum[i] / 60000;
     const double deviation = std::sqrt(squares[i] / 60000 - mean * mean);
     const auto at = std::size_t(i);
-    EXPECT_NEAR(deviation / published[at], 1, .005) << i;  // three printed digits
-    EXPECT_NEAR(deviation / predicted[at], 1, .04) << i;   // 60 000 frames, correlated over 60
+    // 60 000 frames, correlated over 60 of them: 2.2 % each of two estimates, twice.
+    EXPECT_NEAR(deviation / published[at], 1, .06) << i;
+    EXPECT_NEAR(deviation / predicted[at], 1, .045) << i;
   }
 }
 
