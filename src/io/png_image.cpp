@@ -86,6 +86,7 @@ std::optional<cv::Mat> decode_png(const std::vector<unsigned char>& bytes) {
   if (double(size.width) * size.height > kMostPixels) return cv::Mat();
   cv::Mat image(size, reader.type());
   std::vector<png_bytep> rows;
+  rows.reserve(std::size_t(size.height));
   for (int v = 0; v < size.height; ++v) rows.push_back(image.ptr(v));
   return reader.read_rows(rows) ? image : cv::Mat();
 }

@@ -71,7 +71,7 @@ Output new_output(VideoKind kind) {
 
 }  // namespace
 
-struct VideoEncoder::Stream {
+struct VideoEncoder::File {
   fs::path path;
   Output output;
   AVStream* stream = nullptr;
@@ -87,7 +87,7 @@ struct VideoEncoder::Stream {
 };
 
 /// Hands a picture to the encoder (null: there are no more) and what comes out to the file.
-void VideoEncoder::Stream::encode(const AVFrame* next) {
+void VideoEncoder::File::encode(const AVFrame* next) {
   if (avcodec_send_frame(codec.get(), next) < 0) is_whole = false;
   while (is_whole && avcodec_receive_packet(codec.get(), packet.get()) >= 0) {
     if (packet->duration == 0) packet->duration = 1;  // in time_base: to the next picture
@@ -98,7 +98,7 @@ void VideoEncoder::Stream::encode(const AVFrame* next) {
 }
 
 /// Creates the file and writes its head; false when that fails.
-bool VideoEncoder::Stream::begin() {
+bool VideoEncoder::File::begin() {
   const std::string url = "file:" + path.string();
   if (avio_open(&output->pb, url.c_str(), AVIO_FLAG_WRITE) < 0) return false;
   return avformat_write_header(output.get(), nullptr) >= 0;
@@ -107,7 +107,7 @@ bool VideoEncoder::Stream::begin() {
 std::unique_ptr<VideoEncoder> VideoEncoder::open(const fs::path& path, VideoKind kind,
                                                  const cv::Size& size, double frames_per_s) {
   libav::be_silent();
-  auto s = std::make_unique<Stream>();
+  auto s = std::make_unique<File>();
   s->path = path;
   s->output = new_output(kind);
   if (!s->output) return nullptr;
@@ -123,12 +123,12 @@ std::unique_ptr<VideoEncoder> VideoEncoder::open(const fs::path& path, VideoKind
   return std::unique_ptr<VideoEncoder>(new VideoEncoder(std::move(s)));
 }
 
-VideoEncoder::VideoEncoder(std::unique_ptr<Stream> stream) : stream_(std::move(stream)) {}
+VideoEncoder::VideoEncoder(std::unique_ptr<File> file) : file_(std::move(file)) {}
 
 VideoEncoder::~VideoEncoder() = default;
 
 void VideoEncoder::write(const cv::Mat& bgr) {
-  Stream& s = *stream_;
+  File& s = *file_;
   if (!s.is_whole || av_frame_make_writable(s.picture.get()) < 0) return;
   libav::Picture from(av_frame_alloc());
   from->width = bgr.cols;
@@ -142,7 +142,7 @@ void VideoEncoder::write(const cv::Mat& bgr) {
 }
 
 bool VideoEncoder::finish() {
-  Stream& s = *stream_;
+  File& s = *file_;
   if (s.is_whole) s.encode(nullptr);
   if (av_write_trailer(s.output.get()) < 0) s.is_whole = false;
   avio_flush(s.output->pb);

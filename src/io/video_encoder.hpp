@@ -32,9 +32,9 @@ class VideoEncoder {
   bool finish();
 
  private:
-  struct Stream;
-  explicit VideoEncoder(std::unique_ptr<Stream> stream);
-  std::unique_ptr<Stream> stream_;
+  struct File;
+  explicit VideoEncoder(std::unique_ptr<File> file);
+  std::unique_ptr<File> file_;
 };
 
 }  // namespace kestrel
