@@ -84,7 +84,7 @@ std::optional<PixelBox> draw_rectangle(const cv::Mat& gray, const std::string& t
 
 }  // namespace
 
-extern "C" const DisplayModule kestrel_module;
-const DisplayModule kestrel_module{draw_rectangle, open_window, show, close_window};
+extern "C" const DisplayModule kKestrelModule;
+const DisplayModule kKestrelModule{draw_rectangle, open_window, show, close_window};
 
 }  // namespace kestrel::app

@@ -5,9 +5,9 @@
 namespace kestrel {
 namespace {
 
-CaptureModule::Images images_of(cv::VideoCapture capture) {
-  if (!capture.isOpened()) return {};
-  return [capture = std::move(capture)]() mutable {
+CaptureModule::Images images_of(const cv::VideoCapture& opened) {
+  if (!opened.isOpened()) return {};
+  return [capture = opened]() mutable {
     cv::Mat image;
     if (!capture.read(image)) image.release();
     return image;
@@ -27,7 +27,7 @@ CaptureModule::Images open_stream(const std::string& address, int open_timeout_m
 
 }  // namespace
 
-extern "C" const CaptureModule kestrel_module;
-const CaptureModule kestrel_module{open_device, open_stream};
+extern "C" const CaptureModule kKestrelModule;
+const CaptureModule kKestrelModule{open_device, open_stream};
 
 }  // namespace kestrel

@@ -11,7 +11,7 @@ cv::Mat decode(const std::vector<unsigned char>& bytes) {
 
 }  // namespace
 
-extern "C" const ImageModule kestrel_module;
-const ImageModule kestrel_module{decode};
+extern "C" const ImageModule kKestrelModule;
+const ImageModule kKestrelModule{decode};
 
 }  // namespace kestrel

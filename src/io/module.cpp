@@ -22,7 +22,7 @@ const void* module_table(const std::string& name) {
   // opened it, so opening it again is cheap and nothing has to be remembered here.
   void* const loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (loaded == nullptr) fail(file);
-  const void* const table = dlsym(loaded, "kestrel_module");
+  const void* const table = dlsym(loaded, "kKestrelModule");
   if (table == nullptr) fail(file);
   return table;
 }

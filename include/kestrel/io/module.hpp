@@ -4,7 +4,7 @@
 
 namespace kestrel {
 
-/// The address of the table `kestrel_module` in kestrel_<name>.so, a part of the program that lies
+/// The address of the table `kKestrelModule` in kestrel_<name>.so, a part of the program that lies
 /// beside it and is loaded when it is first asked for, because what it needs is large and most runs
 /// do without. It stays loaded until the program ends. Throws std::runtime_error that names the
 /// file, the cause and the remedy.
