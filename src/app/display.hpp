@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,6 +8,9 @@
 #include "kestrel/geometry/pixel.hpp"
 
 namespace kestrel::app {
+
+struct DisplayModule;
+struct ShownWindow;
 
 /// True when there is an X display to open a window on.
 bool has_display();
@@ -30,8 +32,8 @@ class Window {
   bool show(const cv::Mat& bgr);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  const DisplayModule& module_;
+  ShownWindow* window_;
 };
 
 }  // namespace kestrel::app

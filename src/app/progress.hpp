@@ -31,4 +31,7 @@ class Progress {
 /// Seconds on a clock that only goes forward.
 double monotonic_s();
 
+/// The most memory that this program had resident so far, MB (a million bytes).
+double peak_memory_mb();
+
 }  // namespace kestrel::app

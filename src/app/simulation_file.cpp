@@ -4,8 +4,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "kestrel/io/gray_image.hpp"
 #include "kestrel/sim/texture.hpp"
 
 namespace kestrel::app {
@@ -85,11 +84,7 @@ Scene scene_of(const Simulation& simulation) {
                              int(wall.poster_height_m * kPosterPxPerM), wall.seed),
                       wall);
   }
-  const cv::Mat texture = cv::imread(simulation.texture.string(), cv::IMREAD_GRAYSCALE);
-  if (texture.empty()) {
-    throw FileError(simulation.texture, 0, "", "is no picture that can be read (texture)");
-  }
-  return wall_scene(texture, wall);
+  return wall_scene(load_gray(simulation.texture), wall);
 }
 
 }  // namespace kestrel::app

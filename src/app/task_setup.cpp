@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "kestrel/io/camera_file.hpp"
+#include "kestrel/io/gray_image.hpp"
 #include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence.hpp"
 #include "kestrel/io/sequence_file.hpp"
@@ -108,8 +107,7 @@ Frame first_frame(FrameSource& source, const std::string& source_name) {
 Tracker learn_template(const Experiment& experiment, const Frame& first) {
   const TrackOptions& track = experiment.task.track;
   if (experiment.template_image) {
-    const cv::Mat picture = cv::imread(experiment.template_image->string(), cv::IMREAD_GRAYSCALE);
-    if (picture.empty()) throw FileError(*experiment.template_image, 0, "", "is no picture");
+    const cv::Mat picture = load_gray(*experiment.template_image);
     const PixelBox all{0, 0, double(picture.cols), double(picture.rows)};
     return {picture, experiment.template_px.value_or(all), track};
   }

@@ -192,6 +192,7 @@ int run(const TrackArguments& a) {
   const std::string ended_by = fold(tracking, *source, first);
   RunResult result{recorder.folder(), tracking.summary(*source, ended_by), 0};
   recorder.add_times(result.summary);
+  result.summary.add("peak memory", peak_memory_mb(), "MB");
   RunView view;
   view.image_width = first.gray.cols;
   view.image_height = first.gray.rows;

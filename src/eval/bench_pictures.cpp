@@ -117,8 +117,9 @@ std::vector<std::vector<ReportPicture>> worst_pictures(const BenchSequence& sequ
         const Wanted& w = one->second;
         OverlayOptions options;
         options.goal_corners = sequence.truth.at(frame->index);
-        ranked[w.run][w.rank] = {caption(*w.frame, w.error_px),
-                                 overlay(*frame, learned, track_of(w.frame->answer), options)};
+        ranked[w.run][w.rank] =
+            report_picture(caption(*w.frame, w.error_px),
+                           overlay(*frame, learned, track_of(w.frame->answer), options));
       }
       if (frame->index >= wanted.rbegin()->first) break;
     }

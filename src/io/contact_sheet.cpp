@@ -7,12 +7,7 @@ namespace kestrel {
 
 void ContactSheet::offer(const cv::Mat& picture, const std::string& caption, double badness) {
   const std::int64_t place = offered_++;
-  const Kept kept{place, badness, {caption, picture}};
-  const auto copy = [&] {
-    Kept own = kept;
-    own.picture.picture = picture.clone();
-    return own;
-  };
+  const auto copy = [&] { return Kept{place, badness, report_picture(caption, picture)}; };
   if (even_ > 0 && place % stride_ == 0) spaced_.push_back(copy());
   if (spaced_.size() > 4 * std::size_t(even_)) {
     // Each doubling of the stride drops every other picture: memory stays bounded, spacing even.

@@ -4,8 +4,9 @@
 #include <iterator>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "kestrel/io/image_codec.hpp"
 
 namespace kestrel {
 namespace {
@@ -52,7 +53,7 @@ cv::Mat load_gray(const std::filesystem::path& file) {
   if (is_cut_jpeg(bytes)) throw FileError(file, 0, "", "is cut short (a JPEG without an end)");
   cv::Mat gray;
   try {
-    gray = as_gray(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
+    gray = as_gray(decode_image(bytes));
   } catch (const cv::Exception& error) {
     throw FileError(file, 0, "", "cannot be decoded (" + error.err + ")");
   }

@@ -10,11 +10,12 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/videoio.hpp>
-
 #include "kestrel/io/dc1394_camera.hpp"
 #include "kestrel/io/gray_image.hpp"
+#include "kestrel/io/module.hpp"
 #include "kestrel/io/text_file.hpp"
+
+#include "capture_module.hpp"
 
 namespace kestrel {
 namespace {
@@ -25,7 +26,9 @@ bool begins_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-cv::VideoCapture open_device(const std::string& address) {
+const CaptureModule& capture_module() { return module_functions<CaptureModule>("capture"); }
+
+CaptureModule::Images open_device(const std::string& address) {
   std::int64_t number = -1;
   try {
     number = parse_integer(address.substr(address.find(':') + 1));
@@ -37,35 +40,34 @@ cv::VideoCapture open_device(const std::string& address) {
     throw std::runtime_error(address + ": there is no " + device +
                              "; connect the camera, or name another (ls /dev/video*)");
   }
-  cv::VideoCapture capture(int(number), cv::CAP_V4L2);
-  if (!capture.isOpened()) {
+  auto images = capture_module().open_device(int(number));
+  if (!images) {
     throw std::runtime_error(address + ": " + device +
                              " cannot be opened; check its permissions, and that no other program "
                              "holds it");
   }
-  return capture;
+  return images;
 }
 
 /// FFmpeg's own time-out comes after ours, so that a stall is called one.
-cv::VideoCapture open_stream(const std::string& address, const LiveOptions& options) {
-  cv::VideoCapture capture(address, cv::CAP_FFMPEG,
-                           {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, int(1000 * options.open_timeout_s),
-                            cv::CAP_PROP_READ_TIMEOUT_MSEC, int(1500 * options.stall_timeout_s)});
-  if (!capture.isOpened()) {
+CaptureModule::Images open_stream(const std::string& address, const LiveOptions& options) {
+  auto images = capture_module().open_stream(address, int(1000 * options.open_timeout_s),
+                                             int(1500 * options.stall_timeout_s));
+  if (!images) {
     throw std::runtime_error(address + fmt::format(": no video within {} s; check the address, and "
                                                    "that the camera sends",
                                                    options.open_timeout_s));
   }
-  return capture;
+  return images;
 }
 
 /// The newest frame of a capture that a thread of its own reads.
 class LiveCamera : public FrameSource {
  public:
-  LiveCamera(std::string address, const cv::VideoCapture& capture, double stall_timeout_s)
+  LiveCamera(std::string address, CaptureModule::Images images, double stall_timeout_s)
       : address_(std::move(address)),
         stall_timeout_s_(stall_timeout_s),
-        capture_(capture),
+        images_(std::move(images)),
         reader_([this] { read_all(); }) {}
   /// Waits for the reader: as long as the capture's own time-out at most.
   ~LiveCamera() override {
@@ -98,8 +100,8 @@ class LiveCamera : public FrameSource {
 
  private:
   void read_all() {
-    cv::Mat image;
-    for (std::int64_t index = 0; capture_.read(image); ++index) {
+    std::int64_t index = 0;
+    for (cv::Mat image = images_(); !image.empty(); image = images_(), ++index) {
       const double stamp_s = std::chrono::duration<double>(Clock::now() - start_).count();
       cv::Mat gray = as_gray(image);
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -122,7 +124,7 @@ class LiveCamera : public FrameSource {
   std::optional<Frame> latest_;
   bool ended_ = false;
   bool stop_ = false;
-  cv::VideoCapture capture_;
+  CaptureModule::Images images_;
   std::thread reader_;  // the last member: it starts when all else is there
 };
 

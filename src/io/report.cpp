@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "kestrel/io/csv.hpp"
+#include "kestrel/io/image_codec.hpp"
 #include "kestrel/io/markup.hpp"
 
 #include "report_style.hpp"
@@ -60,28 +60,15 @@ std::string video(const std::string& name) {
       url, link);
 }
 
-std::string jpeg(const cv::Mat& picture) {
-  constexpr int kWidest = 800;  // keeps the page to a few megabytes
-  cv::Mat small = picture;
-  if (picture.cols > kWidest)
-    cv::resize(picture, small, {}, double(kWidest) / picture.cols, double(kWidest) / picture.cols,
-               cv::INTER_AREA);
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
-  return fmt::format("width=\"{}\" height=\"{}\" src=\"data:image/jpeg;base64,{}\"", small.cols,
-                     small.rows, base64(bytes));
-}
-
 /// The pictures of a contact sheet; empty when there are none.
 std::string sheet(const std::vector<ReportPicture>& pictures) {
   std::string out;
   for (const ReportPicture& picture : pictures) {
-    if (picture.picture.empty()) continue;
-    const std::string caption = escaped(picture.caption);
+    if (picture.jpeg.empty()) continue;
     out += fmt::format(
-        "<figure class=\"card\"><img alt=\"Annotated picture: {0}\" {1}>\n"
-        "<figcaption>{0}</figcaption></figure>\n",
-        caption, jpeg(picture.picture));
+        "<figure class=\"card\"><img alt=\"Annotated picture: {0}\" width=\"{1}\" height=\"{2}\" "
+        "src=\"data:image/jpeg;base64,{3}\">\n<figcaption>{0}</figcaption></figure>\n",
+        escaped(picture.caption), picture.width_px, picture.height_px, base64(picture.jpeg));
   }
   return out.empty() ? "" : "<div class=\"sheet\">\n" + out + "</div>\n";
 }
@@ -157,6 +144,17 @@ std::string size_words(std::uintmax_t bytes) {
 }
 
 }  // namespace
+
+ReportPicture report_picture(const std::string& caption, const cv::Mat& picture) {
+  constexpr int kWidest = 800;  // keeps the page to a few megabytes
+  constexpr int kQuality = 85;
+  if (picture.empty()) return {caption, {}};
+  cv::Mat small = picture;
+  if (picture.cols > kWidest)
+    cv::resize(picture, small, {}, double(kWidest) / picture.cols, double(kWidest) / picture.cols,
+               cv::INTER_AREA);
+  return {caption, encode_jpeg(small, kQuality), small.cols, small.rows};
+}
 
 std::string report_html(const Report& report) {
   std::string page = fmt::format(

@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <opencv2/videoio.hpp>
-
 #include "kestrel/io/gray_image.hpp"
 #include "kestrel/io/image_files.hpp"
+#include "kestrel/io/video_reader.hpp"
 
 namespace kestrel {
 namespace {
@@ -62,26 +61,22 @@ class ImageSequence : public FrameSource {
 class VideoSequence : public FrameSource {
  public:
   explicit VideoSequence(const SequenceOptions& options)
-      : capture_(options.input, cv::CAP_FFMPEG), last_(options.last_frame) {
-    if (!capture_.isOpened()) fail(options, "is no video that FFmpeg can read; re-encode it");
-    const double own_rate = capture_.get(cv::CAP_PROP_FPS);
-    const bool sane = std::isfinite(own_rate) && own_rate > 0 && own_rate < 10000;
-    rate_hz_ = options.rate_hz.value_or(sane ? own_rate : kUsualRate_hz);
-    promised_ = std::int64_t(capture_.get(cv::CAP_PROP_FRAME_COUNT));
+      : reader_(options.input), last_(options.last_frame), rate_hz_(options.rate_hz) {
+    promised_ = reader_.promised();
     for (; index_ < options.first_frame; ++index_) {
-      if (!capture_.grab()) {
+      if (!reader_.skip()) {
         fail(options, "has only " + std::to_string(index_) + " frames; lower first_frame");
       }
     }
     first_ = index_;
-    if (!read()) fail(options, "holds no frame that can be decoded; re-encode it");
+    read();
+    if (!ahead_) fail(options, "holds no frame that can be decoded; re-encode it");
   }
 
   std::optional<Frame> next() override {
-    if (ahead_.empty()) return std::nullopt;
-    const std::int64_t index = index_++;
-    Frame frame{index, double(index) / rate_hz_, as_gray(ahead_), std::nullopt};
-    if (!read()) ahead_ = cv::Mat();
+    std::optional<Frame> frame;
+    frame.swap(ahead_);
+    if (frame) read();
     return frame;
   }
 
@@ -94,25 +89,45 @@ class VideoSequence : public FrameSource {
   }
 
  private:
-  /// Decodes frame index_ into ahead_; false at the end.
-  bool read() {
-    if (last_ && index_ > *last_) return false;
-    if (capture_.read(ahead_) && !as_gray(ahead_).empty()) return true;
-    const std::int64_t wanted = last_ ? std::min(*last_ + 1, promised_) : promised_;
-    if (index_ < wanted) {
-      skipped_.push_back("frames " + std::to_string(index_) + " to " + std::to_string(wanted - 1) +
-                         ": the video ends early (cut short or damaged)");
+  /// Decodes the next frame into ahead_, which stays empty at the end.
+  void read() {
+    if (last_ && index_ > *last_) return;
+    const std::int64_t damaged = reader_.damaged();
+    const auto picture = reader_.next();
+    if (!picture) return note_early_end();
+    for (std::int64_t lost = reader_.damaged() - damaged; lost > 0; --lost) {
+      skipped_.push_back("frame " + std::to_string(index_++) + ": is damaged");
     }
-    return false;
+    if (last_ && index_ > *last_) return;
+    ahead_ = Frame{index_, stamp_s(*picture), picture->gray, std::nullopt};
+    stamp_s_ = ahead_->stamp_s;
+    ++index_;
   }
 
-  cv::VideoCapture capture_;
-  cv::Mat ahead_;
+  /// By the rate that is asked for, else as the video says while that increases.
+  double stamp_s(const VideoPicture& picture) const {
+    const double rate_hz = rate_hz_.value_or(reader_.rate_hz().value_or(kUsualRate_hz));
+    const double by_rate_s = double(index_) / rate_hz;
+    if (rate_hz_) return by_rate_s;
+    const double said_s = picture.time_s.value_or(by_rate_s);
+    return !stamp_s_ || said_s > *stamp_s_ ? said_s : *stamp_s_ + 1 / rate_hz;
+  }
+
+  void note_early_end() {
+    const std::int64_t wanted = last_ ? std::min(*last_ + 1, promised_) : promised_;
+    if (index_ >= wanted) return;
+    skipped_.push_back("frames " + std::to_string(index_) + " to " + std::to_string(wanted - 1) +
+                       ": the video ends early (cut short or damaged)");
+  }
+
+  VideoReader reader_;
+  std::optional<Frame> ahead_;
   std::optional<std::int64_t> last_;
+  std::optional<double> rate_hz_;
+  std::optional<double> stamp_s_;  // of the last frame given
   std::int64_t first_ = 0;
-  std::int64_t index_ = 0;
+  std::int64_t index_ = 0;  // of the next frame
   std::int64_t promised_ = 0;
-  double rate_hz_ = kUsualRate_hz;
   std::vector<std::string> skipped_;
 };
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,7 +80,8 @@ void Program::signal(int number) const { kill(pid_, number); }
 Outcome Program::wait(double timeout_s) {
   const auto start = std::chrono::steady_clock::now();
   int status = 0;
-  while (waitpid(pid_, &status, WNOHANG) == 0) {
+  rusage usage{};
+  while (wait4(pid_, &status, WNOHANG, &usage) == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
     if (waited.count() > timeout_s) kill(pid_, SIGKILL);
@@ -87,6 +89,7 @@ Outcome Program::wait(double timeout_s) {
   pid_ = -1;
   Outcome outcome;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.peak_memory_bytes = double(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
   outcome.out = content(out_);
   outcome.err = content(err_);
   return outcome;

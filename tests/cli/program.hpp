@@ -11,6 +11,8 @@ struct Outcome {
   int exit_code = -1;  // 128 + signal when one ended it
   std::string out;
   std::string err;
+  /// The most that was resident; never less than what the test itself had when it started it.
+  double peak_memory_bytes = 0;
 };
 
 /// The program under test, running.

@@ -47,7 +47,7 @@ TEST(WorstPictures, ShowTheFramesThatWereBad) {
   ASSERT_EQ(pictures[1].size(), 2u);
   EXPECT_EQ(pictures[1][0].caption, "frame 2: 38.0 px off");
   EXPECT_EQ(pictures[1][1].caption, "frame 4: not found (lost)");
-  EXPECT_EQ(pictures[1][0].picture.cols, 80);
+  EXPECT_EQ(pictures[1][0].width_px, 80);
 }
 
 TEST(WorstPictures, AreNoneWhenTheFramesAreGone) {

@@ -43,8 +43,13 @@ TEST(ContactSheet, OwnsItsPictures) {
   ContactSheet sheet(1, 1);
   cv::Mat picture(2, 2, CV_8UC1, cv::Scalar(7));
   sheet.offer(picture, "0", 1);
+  const ReportPicture as_offered = report_picture("0", picture);
   picture.setTo(0);
-  for (const ReportPicture& kept : sheet.pictures()) EXPECT_EQ(kept.picture.at<uchar>(0, 0), 7);
+  ASSERT_EQ(sheet.pictures().size(), 2u);
+  for (const ReportPicture& kept : sheet.pictures()) {
+    EXPECT_EQ(kept.jpeg, as_offered.jpeg);
+    EXPECT_EQ(kept.width_px, 2);
+  }
 }
 
 TEST(ContactSheet, MayBeEmpty) {

@@ -28,9 +28,9 @@ Report example() {
   report.summary.begin_section("Tracking");
   report.summary.add("found", 98.75, "%");
   report.video = "overlay.mp4";
-  report.pictures = {{"frame 0", cv::Mat(48, 64, CV_8UC3, cv::Scalar(10, 200, 30))},
-                     {"nothing", cv::Mat()},
-                     {"frame 9", cv::Mat(600, 1600, CV_8UC1, cv::Scalar(77))}};
+  report.pictures = {report_picture("frame 0", cv::Mat(48, 64, CV_8UC3, cv::Scalar(10, 200, 30))),
+                     report_picture("nothing", cv::Mat()),
+                     report_picture("frame 9", cv::Mat(600, 1600, CV_8UC1, cv::Scalar(77)))};
   report.sections = simulate_sections(test::made_up_flight(), {});
   report.files = {{"log.csv", "one row a frame"}, {"a b&c.txt", "odd"}};
   report.configuration = "servo:\n  gain_per_s: 0.5  # <here>\n";
@@ -93,7 +93,7 @@ TEST(ReportHtml, ASectionHoldsTablesAndPictures) {
   Report report;
   ReportSection section{"Part", "", {}};
   section.tables = {{"Of <two>", {"name", "px"}, {{"a & b", "1.5"}, {"c", ""}}}};
-  section.pictures = {{"frame 3", cv::Mat(8, 8, CV_8UC1, cv::Scalar(1))}};
+  section.pictures = {report_picture("frame 3", cv::Mat(8, 8, CV_8UC1, cv::Scalar(1)))};
   report.sections = {section};
   const std::string page = report_html(report);
   EXPECT_EQ(test::markup_fault(page), "");

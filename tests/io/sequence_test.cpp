@@ -9,6 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "kestrel/io/video_writer.hpp"
+
 #include "support/temp_folder.hpp"
 
 namespace kestrel {
@@ -188,6 +190,47 @@ TEST_F(Video, KeepsTheCountWhateverPartIsRead) {
   EXPECT_NEAR(frames[0].gray.at<uchar>(20, 20), 35, 3);
   EXPECT_EQ(frames[0].stamp_s, 0.75);
   EXPECT_TRUE(source->skipped().empty());
+}
+
+/// Makes the second half of an MP4 file of `pictures` twice as fast: the box stts (ISO/IEC
+/// 14496-12, 8.6.1.2) gets a second pair of count and ticks; those around it grow by its eight
+/// bytes.
+std::string hurried(std::string bytes, int pictures) {
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | std::uint8_t(bytes[i]);
+    return value;
+  };
+  const auto put = [&](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = char(value >> (24 - 8 * i));
+  };
+  const std::size_t stts = bytes.find("stts");
+  for (const char* box : {"moov", "trak", "mdia", "minf", "stbl", "stts"}) {
+    const std::size_t at = bytes.rfind(box, stts) - 4;
+    put(at, word(at) + 8);
+  }
+  const std::uint32_t ticks = word(stts + 16);
+  bytes.insert(stts + 20, 8, '\0');
+  put(stts + 8, 2);
+  put(stts + 12, std::uint32_t(pictures / 2));
+  put(stts + 20, std::uint32_t(pictures / 2));
+  put(stts + 24, ticks / 2);
+  return bytes;
+}
+
+TEST_F(Video, StampsAreItsOwnTimes) {
+  VideoWriter writer(folder_ / "even.mp4", 25);
+  for (int i = 0; i < kFrames; ++i) writer.write(cv::Mat(48, 64, CV_8UC1, cv::Scalar(20 * i)));
+  writer.close();
+  std::ifstream in(folder_ / "even.mp4", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  options_.input = folder_.write("uneven.mp4", hurried(bytes, kFrames)).string();
+  const auto frames = all_frames(*open_sequence(options_));
+  ASSERT_EQ(frames.size(), std::size_t(kFrames));
+  for (int i = 0; i < kFrames; ++i)
+    EXPECT_DOUBLE_EQ(frames[std::size_t(i)].stamp_s, i < 6 ? i / 25. : (6 + i) / 50.) << i;
+  options_.rate_hz = 10;  // who asks for a rate gets it
+  EXPECT_DOUBLE_EQ(all_frames(*open_sequence(options_))[8].stamp_s, 0.8);
 }
 
 TEST_F(Video, SaysThatItEndsEarly) {

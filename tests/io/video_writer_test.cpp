@@ -1,13 +1,16 @@
 #include "kestrel/io/video_writer.hpp"
 
+#include <csignal>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "support/random.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel {
@@ -94,6 +97,54 @@ TEST(VideoWriter, SaysThatTheFileIsNotWhole) {
   video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(9)));
   std::filesystem::remove(folder / "a.mp4");
   EXPECT_THROW(video.close(), std::runtime_error);
+}
+
+/// No file may grow beyond this while it lives.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit small{bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    std::signal(SIGXFSZ, before_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit limit_{};
+  void (*before_)(int);
+};
+
+TEST(VideoWriter, AFullDiskIsToldAtTheEnd) {
+  const test::TempFolder folder;
+  VideoWriter video(folder / "a.mp4", 25);
+  const SmallDisk disk(20000);
+  test::Random random("noise");
+  cv::Mat noise(120, 160, CV_8UC1);
+  for (int i = 0; i < 12; ++i) {
+    for (auto* byte = noise.data; byte != noise.dataend; ++byte)
+      *byte = uchar(random.integer(0, 255));
+    EXPECT_NO_THROW(video.write(noise));  // a flight goes on
+  }
+  EXPECT_THROW(video.close(), std::runtime_error);
+}
+
+TEST(VideoWriter, WritesMotionJpegWhereItIsAskedFor) {
+  const test::TempFolder folder;
+  VideoWriter video(folder / "a.avi", 25);
+  for (int i = 0; i < 5; ++i) video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 * i)));
+  video.close();
+  EXPECT_EQ(video.path(), folder / "a.avi");
+  cv::VideoCapture file(video.path().string());
+  EXPECT_EQ(int(file.get(cv::CAP_PROP_FOURCC)), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
+  const auto frames = frames_of(video.path());
+  ASSERT_EQ(frames.size(), 5u);
+  // A flat JPEG is off by its quantisation, a few grey levels.
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(cv::mean(frames[std::size_t(i)])[1], 40 * i, 3);
 }
 
 TEST(VideoWriter, IsSilent) {

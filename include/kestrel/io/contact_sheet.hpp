@@ -14,7 +14,8 @@ class ContactSheet {
   /// How many evenly spaced pictures and how many of the worst to end with, >= 0.
   ContactSheet(int even, int worst) : even_(even), worst_(worst) {}
 
-  /// Offers the picture of the next frame; it is copied only when kept. badness: larger is worse;
+  /// Offers the picture of the next frame; only when kept it is turned into a JPEG, whose bytes are
+  /// all that stays in memory. badness: larger is worse;
   /// 0 or NaN: not to be among the worst.
   void offer(const cv::Mat& picture, const std::string& caption, double badness = 0);
 

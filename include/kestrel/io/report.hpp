@@ -10,11 +10,17 @@
 
 namespace kestrel {
 
-/// A picture of the contact sheet.
+/// A picture of the contact sheet, kept as the file that the page will hold.
 struct ReportPicture {
   std::string caption;
-  cv::Mat picture;  // 8-bit BGR or grey; an empty one is left out
+  std::vector<unsigned char> jpeg;  // a picture without bytes is left out
+  int width_px = 0;
+  int height_px = 0;
 };
+
+/// An 8-bit BGR or grey picture as a page shows it: at most 800 px wide. Without bytes when the
+/// picture is empty.
+ReportPicture report_picture(const std::string& caption, const cv::Mat& picture);
 
 /// Rows of words and numbers below a head; what reads as a number stands to the right.
 struct ReportTable {

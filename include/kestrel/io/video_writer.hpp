@@ -8,13 +8,13 @@
 namespace kestrel {
 
 /// Writes a video while it lives: H.264 in .mp4, which browsers play, or Motion JPEG in .avi where
-/// this OpenCV has no H.264. All frames get the size of the first one (made even by a black edge);
-/// one of another size is fitted in with black bars.
+/// that is asked for or FFmpeg has no encoder for H.264. All frames get the size of the first one
+/// (made even by a black edge); one of another size is fitted in with black bars.
 class VideoWriter {
  public:
-  /// path: with the extension .mp4; path() tells what it became. frames_per_s > 0. The file appears
-  /// with the first frame. Throws std::runtime_error with path, cause and remedy when the file
-  /// cannot be created or the disk is full.
+  /// path: with the extension .mp4 or .avi; path() tells what it became. frames_per_s > 0. The file
+  /// appears with the first frame. Throws std::runtime_error with path, cause and remedy when the
+  /// file cannot be created or the disk is full.
   VideoWriter(const std::filesystem::path& path, double frames_per_s);
   /// Closes the video; what is wrong with it then stays unsaid (see close).
   ~VideoWriter();
@@ -25,8 +25,9 @@ class VideoWriter {
   /// when no encoder takes the first frame.
   void write(const cv::Mat& picture);
 
-  /// Completes the file. Throws std::runtime_error when it did not get whole (a full disk: OpenCV
-  /// does not tell while writing). Nothing to do without frames or the second time.
+  /// Completes the file. Throws std::runtime_error when it did not get whole (a full disk,
+  /// which write keeps to itself: a flight goes on without its video). Nothing to do without frames
+  /// or the second time.
   void close();
 
   /// Where the video is: the path asked for, or .avi in its place.
@@ -35,11 +36,12 @@ class VideoWriter {
 
  private:
   struct Encoder;
-  void open(const cv::Size& size);
+  void open(const cv::Size& first);
 
   std::filesystem::path path_;
   double frames_per_s_;
   long frames_ = 0;
+  bool is_closed_ = false;
   std::unique_ptr<Encoder> encoder_;
 };
 
