@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -24,6 +25,7 @@ struct Sighting {
   int keypoints = 0;
   int matches = 0;
   std::vector<PixelPair> inliers;
+  std::size_t look = 0;  // 0: seen sharp; else number of the motion blur it was seen under, from 1
 
   bool is_accepted() const { return miss == Miss::None; }
 };
@@ -67,12 +69,24 @@ class TargetSearch {
   bool is_possible(const Alignment& place) const;
   Choice choose(const std::vector<Place>& places, const std::optional<Expectation>& expected) const;
 
+  /// A place to align a blurred view from.
+  struct Guess {
+    std::size_t look = 0;
+    Homography start;
+    double likeness = 0;
+  };
+  void follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting);
+  Aligner& aligner(std::size_t look);
+  bool is_doubtful(const std::optional<Alignment>& place) const;
+  bool may_be_blurred(const std::optional<Alignment>& place) const;
   void settle(const Frame& frame, Sighting& sighting);
 
   const Template& model_;
   TrackOptions options_;
   SelfLikeness self_;
   Aligner aligner_;
+  std::vector<Aligner> blurred_;
+  std::vector<Guess> guesses_;
   Detector detector_;
   ImagePyramid pyramid_;
 };
