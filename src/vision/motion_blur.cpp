@@ -59,9 +59,8 @@ std::vector<MotionBlur> motion_blurs(double width_px, double height_px) {
 cv::Mat blurred(const cv::Mat& gray, const PixelBox& box, const MotionBlur& motion) {
   const int radius = int(std::ceil(motion.length_px / 2)) + 1;
   const cv::Rect rect(int(box.u), int(box.v), int(box.width), int(box.height));
-  const cv::Rect around =
-      (rect + cv::Size(2 * radius, 2 * radius) - cv::Point(radius, radius)) &
-      cv::Rect(0, 0, gray.cols, gray.rows);
+  const cv::Rect around = (rect + cv::Size(2 * radius, 2 * radius) - cv::Point(radius, radius)) &
+                          cv::Rect(0, 0, gray.cols, gray.rows);
   cv::Mat result;
   cv::filter2D(gray(around), result, CV_8U, line_kernel(motion, radius), {-1, -1}, 0,
                cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);

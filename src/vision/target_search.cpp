@@ -97,8 +97,10 @@ TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
       self_(self_likeness(model.picture(), model.blocks(), align_options(options))),
       aligner_(model.blocks(), align_options(options, self_.share)),
       detector_(model, options) {
+  // Blurred, a picture that is like itself is so even more: any of those places would do.
+  if (!self_.places.empty()) return;
   for (const TemplateBlocks& blocks : model.blurred()) {
-    blurred_.emplace_back(blocks, align_options(options, self_.share));
+    blurred_.emplace_back(blocks, align_options(options));
   }
   guesses_.reserve(2 * blurred_.size());
 }
@@ -153,30 +155,25 @@ bool TargetSearch::may_be_blurred(const std::optional<Alignment>& place) const {
          !(place && is_possible(*place) && place->agreement.better_half() > kSharpHalf);
 }
 
-/// Of all motion blurs those that are likeliest at the places are aligned; the best view is taken.
+/// Of all motion blurs those that are likeliest at the places are aligned; the best view that is
+/// not weak itself is taken.
 void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting) {
   guesses_.clear();
   for (std::size_t i = 0; i < blurred_.size(); ++i) {
     for (const Homography& start : starts) {
-      guesses_.push_back({i + 1, start, blurred_[i].detail(pyramid_, start)});
+      guesses_.push_back({i, start, blurred_[i].detail(pyramid_, start)});
     }
   }
   const auto end = guesses_.begin() + std::ptrdiff_t(std::min(guesses_.size(), kTriedBlurs));
   std::partial_sort(guesses_.begin(), end, guesses_.end(), [](const Guess& a, const Guess& b) {
-    return a.likeness != b.likeness ? a.likeness > b.likeness : a.look < b.look;
+    return a.likeness != b.likeness ? a.likeness > b.likeness : a.blur < b.blur;
   });
   for (auto guess = guesses_.begin(); guess != end; ++guess) {
-    const auto at = aligner(guess->look).align(pyramid_, guess->start);
-    if (!at || !is_possible(*at)) continue;
-    if (sighting.at && !is_better(*at, *sighting.at)) continue;
+    const auto at = blurred_[guess->blur].align(pyramid_, guess->start);
+    if (is_doubtful(at) || (sighting.at && !is_better(*at, *sighting.at))) continue;
     sighting.at = at;
-    sighting.look = guess->look;
     sighting.stage = TrackStage::Searched;
   }
-}
-
-Aligner& TargetSearch::aligner(std::size_t look) {
-  return look == 0 ? aligner_ : blurred_[look - 1];
 }
 
 /// A place that shows so little of the template that it may be one where the template is like
@@ -191,8 +188,7 @@ void TargetSearch::settle(const Frame& frame, Sighting& sighting) {
   for (const Homography& place : self_.places) {
     for (const Eigen::Matrix3d& way :
          {Eigen::Matrix3d(place.H), Eigen::Matrix3d(place.H.inverse())}) {
-      const auto rival =
-          aligner(sighting.look).align(pyramid_, Homography{found.H * way});
+      const auto rival = aligner_.align(pyramid_, Homography{found.H * way});
       if (!rival || !is_possible(*rival)) continue;
       if (is_same(rival->image_from_template, sighting.at->image_from_template, model_)) continue;
       const bool better = is_better(*rival, *sighting.at);

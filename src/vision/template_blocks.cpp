@@ -314,8 +314,8 @@ TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& optio
   for (int k = 0; k < levels; ++k) {
     const std::vector<Plane> others = k == 0 ? std::vector<Plane>() : off_grid(picture, k);
     const int most = k == 0 ? options.max_blocks : options.max_coarse_blocks;
-    result.levels.push_back(cut(all[std::size_t(k)], others, scaled * level0_from_level(k), most,
-                                options.noise_grey));
+    result.levels.push_back(
+        cut(all[std::size_t(k)], others, scaled * level0_from_level(k), most, options.noise_grey));
   }
   return result;
 }

@@ -30,7 +30,8 @@ Arguments arguments(int argc, char** argv) {
   CLI::App app("Templates searched for in frames that do not show them");
   app.add_option("--frames", a.frames, "for each template")->check(CLI::PositiveNumber);
   app.add_option("--seed", a.seed, "of the frames");
-  app.add_option("--class", a.cls, "whose first frame is learned: it says how large the template is");
+  app.add_option("--class", a.cls,
+                 "whose first frame is learned: it says how large the template is");
   app.add_option("--texture", a.textures, "templates; all of the dev set unless named");
   app.add_option("--method", a.methods, "only these");
   try {

@@ -25,7 +25,6 @@ struct Sighting {
   int keypoints = 0;
   int matches = 0;
   std::vector<PixelPair> inliers;
-  std::size_t look = 0;  // 0: seen sharp; else number of the motion blur it was seen under, from 1
 
   bool is_accepted() const { return miss == Miss::None; }
 };
@@ -44,7 +43,8 @@ class TargetSearch {
   TargetSearch(const Template& model, const TrackOptions& options);
 
   /// The template near where it was: aligned from the last place or from the one ahead, whichever
-  /// shows more of it; when that is in doubt, from the likeliest place around. Allocates nothing.
+  /// shows more of it; when that is in doubt, from the likeliest place around, and with the views
+  /// that motion blurs. Allocates nothing.
   Sighting follow(const Frame& frame, const Homography& last, const Homography& ahead);
 
   /// The template in a window, from its keypoints. Of several places that look like the template
@@ -71,12 +71,11 @@ class TargetSearch {
 
   /// A place to align a blurred view from.
   struct Guess {
-    std::size_t look = 0;
+    std::size_t blur = 0;
     Homography start;
     double likeness = 0;
   };
   void follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting);
-  Aligner& aligner(std::size_t look);
   bool is_doubtful(const std::optional<Alignment>& place) const;
   bool may_be_blurred(const std::optional<Alignment>& place) const;
   void settle(const Frame& frame, Sighting& sighting);
@@ -85,7 +84,7 @@ class TargetSearch {
   TrackOptions options_;
   SelfLikeness self_;
   Aligner aligner_;
-  std::vector<Aligner> blurred_;
+  std::vector<Aligner> blurred_;  // of model_.blurred(); none for a template that is like itself
   std::vector<Guess> guesses_;
   Detector detector_;
   ImagePyramid pyramid_;
