@@ -96,19 +96,16 @@ TEST(TargetSearch, ACoveredTargetIsAWeakSight) {
 }
 
 TEST(TargetSearch, FollowsWhatMotionBlurs) {
-  // 22 and 19 px long, between the directions and lengths that were learned, in a picture that is
-  // turned and larger: the template's structures of 5 and 11 px are gone along the line, and the
-  // sharp template is not what is seen.
+  // 22 px long, between the directions that were learned, in a picture that is turned and larger:
+  // aligned with the sharp template alone the corners are 5 px off.
   const Homography truth = placed_at({205, 148}, {1.2, 0.4, 0.2, 1});
-  for (const MotionBlur motion : {MotionBlur{22, 0.7}, {22, 2.6}, {19, 1.7}}) {
-    const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
-    const Frame frame = frame_of(blurred(planted(truth), all, motion));
-    const Homography off = shifted(truth, 4, -3);
-    const Sighting seen = search().follow(frame, off, off);
-    ASSERT_TRUE(seen.is_accepted()) << motion.direction_rad;
-    EXPECT_GT(seen.at->agreement.alike_share(), 0.7);
-    EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
-  }
+  const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
+  const MotionBlur motion{22, 2.6};
+  const Homography off = shifted(truth, 4, -3);
+  const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, off);
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_FALSE(search().is_weak(*seen.at));
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
 }
 
 /// A texture twice side by side, on the ground.
