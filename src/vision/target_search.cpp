@@ -146,7 +146,9 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const 
 }
 
 bool TargetSearch::is_doubtful(const std::optional<Alignment>& place) const {
-  return !place || !is_possible(*place) || is_weak(*place);
+  if (!place || !is_possible(*place) || is_weak(*place)) return true;
+  // So much of it may show a line of print, or a window, beside the place.
+  return !self_.places.empty() && place->agreement.alike_share() < sure_share(self_.share);
 }
 
 /// What is covered leaves the better half of the blocks as it is, what is blurred spoils all.
