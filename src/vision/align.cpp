@@ -215,12 +215,10 @@ Aligner& Aligner::operator=(Aligner&&) noexcept = default;
 
 int Aligner::levels() const { return int(blocks_.levels.size()); }
 
-double Aligner::likeness(const ImagePyramid& image, const Homography& image_from_template) {
-  const LevelPair finest = finest_pair(image_from_template, blocks_, image);
-  const int coarser = pair_count(finest, blocks_, image) - 1;
-  const LevelPair at{finest.in_template + coarser, finest.in_image + coarser};
-  const BlockLevel& level = blocks_.levels[std::size_t(at.in_template)];
-  scratch_->look(scratch_->score, image, at, image_from_template, int(level.blocks.size()));
+double Aligner::likeness_at(const ImagePyramid& image, const Homography& H, int in_template,
+                            int in_image) {
+  const BlockLevel& level = blocks_.levels[std::size_t(in_template)];
+  scratch_->look(scratch_->score, image, {in_template, in_image}, H, int(level.blocks.size()));
   double explained = 0;
   double all = 0;
   for (std::size_t i = 0; i < level.blocks.size(); ++i) {
@@ -231,6 +229,18 @@ double Aligner::likeness(const ImagePyramid& image, const Homography& image_from
     explained += weight * c * c;
   }
   return all > 0 ? explained / all : 0;
+}
+
+double Aligner::likeness(const ImagePyramid& image, const Homography& image_from_template) {
+  const LevelPair finest = finest_pair(image_from_template, blocks_, image);
+  const int coarser = pair_count(finest, blocks_, image) - 1;
+  return likeness_at(image, image_from_template, finest.in_template + coarser,
+                     finest.in_image + coarser);
+}
+
+double Aligner::detail(const ImagePyramid& image, const Homography& image_from_template) {
+  const LevelPair finest = finest_pair(image_from_template, blocks_, image);
+  return likeness_at(image, image_from_template, finest.in_template, finest.in_image);
 }
 
 Homography Aligner::search(const ImagePyramid& image, const Homography& start) {

@@ -19,6 +19,13 @@ constexpr double kSamePlaceShare = 0.05;
 /// A rival that shows this share of what the best place shows is as good as that.
 constexpr double kRivalShare = 0.8;
 
+/// A better half that correlates above this, four fifths of its variance explained, is seen sharp.
+constexpr double kSharpHalf = 0.9;
+
+/// Views under motion blur that are aligned in one frame: of those 30 degrees or a factor of 1.5
+/// apart four are next to each other, from two starts.
+constexpr std::size_t kTriedBlurs = 8;
+
 /// Standard deviations within which a place is the expected one.
 constexpr double kGate = 3;
 
@@ -89,7 +96,14 @@ TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
       options_(options),
       self_(self_likeness(model.picture(), model.blocks(), align_options(options))),
       aligner_(model.blocks(), align_options(options, self_.share)),
-      detector_(model, options) {}
+      detector_(model, options) {
+  // Blurred, a picture that is like itself is so even more: any of those places would do.
+  if (!self_.places.empty()) return;
+  for (const TemplateBlocks& blocks : model.blurred()) {
+    blurred_.emplace_back(blocks, align_options(options));
+  }
+  guesses_.reserve(2 * blurred_.size());
+}
 
 void TargetSearch::look(const Frame& frame, const PixelBox& window) {
   pyramid_.look(frame.gray, window, aligner_.levels(), options_.simd);
@@ -113,18 +127,55 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const 
   const bool moves = aligner_.likeness(pyramid_, ahead) >= aligner_.likeness(pyramid_, last);
   const Homography& start = moves ? ahead : last;
   result.at = aligner_.align(pyramid_, start);
-  if (!result.at || !is_possible(*result.at) || is_weak(*result.at)) {
+  if (is_doubtful(result.at)) {
     result.window = {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
     look(frame, result.window);
-    const auto searched = aligner_.align(pyramid_, aligner_.search(pyramid_, start));
+    const Homography around = aligner_.search(pyramid_, start);
+    const auto searched = aligner_.align(pyramid_, around);
     if (searched && (!result.at || is_better(*searched, *result.at))) {
       result.at = searched;
       result.stage = TrackStage::Searched;
+    }
+    if (may_be_blurred(result.at)) {
+      follow_blurred({around, result.at ? result.at->image_from_template : start}, result);
     }
   }
   if (result.at && is_possible(*result.at)) result.miss = Miss::None;
   settle(frame, result);
   return result;
+}
+
+bool TargetSearch::is_doubtful(const std::optional<Alignment>& place) const {
+  if (!place || !is_possible(*place) || is_weak(*place)) return true;
+  // So much of it may show a line of print, or a window, beside the place.
+  return !self_.places.empty() && place->agreement.alike_share() < sure_share(self_.share);
+}
+
+/// What is covered leaves the better half of the blocks as it is, what is blurred spoils all.
+bool TargetSearch::may_be_blurred(const std::optional<Alignment>& place) const {
+  return is_doubtful(place) &&
+         !(place && is_possible(*place) && place->agreement.better_half() > kSharpHalf);
+}
+
+/// Of all motion blurs those that are likeliest at the places are aligned; the best view that is
+/// not weak itself is taken.
+void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting) {
+  guesses_.clear();
+  for (std::size_t i = 0; i < blurred_.size(); ++i) {
+    for (const Homography& start : starts) {
+      guesses_.push_back({i, start, blurred_[i].detail(pyramid_, start)});
+    }
+  }
+  const auto end = guesses_.begin() + std::ptrdiff_t(std::min(guesses_.size(), kTriedBlurs));
+  std::partial_sort(guesses_.begin(), end, guesses_.end(), [](const Guess& a, const Guess& b) {
+    return a.likeness != b.likeness ? a.likeness > b.likeness : a.blur < b.blur;
+  });
+  for (auto guess = guesses_.begin(); guess != end; ++guess) {
+    const auto at = blurred_[guess->blur].align(pyramid_, guess->start);
+    if (is_doubtful(at) || (sighting.at && !is_better(*at, *sighting.at))) continue;
+    sighting.at = at;
+    sighting.stage = TrackStage::Searched;
+  }
 }
 
 /// A place that shows so little of the template that it may be one where the template is like

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kestrel/vision/motion_blur.hpp"
 #include "kestrel/vision/window.hpp"
 
 namespace kestrel {
@@ -108,6 +109,7 @@ Template::Template(const cv::Mat& gray, const PixelBox& box, const TrackOptions&
     return;
   }
   blocks_ = enough(template_blocks(picture_, options.blocks), options.align.agreement.min_alike);
+  blurred_ = blurred_blocks(gray, box, options.blocks);
   FastSiftOptions sift = options.detect.sift;
   sift.simd = options.simd;
   features_ = learn_features(gray, box, sift);

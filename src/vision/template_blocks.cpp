@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/LU>
+#include <opencv2/core.hpp>
 
 #include "kestrel/vision/image_pyramid.hpp"
 
@@ -20,6 +23,9 @@ constexpr int kPixels = kernel::kBlockPixels;
 
 /// Below this a level holds no more than one block a side: too few to tell which of them to trust.
 constexpr int kMinLevelSidePx = 12;
+
+/// Correlation at which two pictures share half their variance.
+constexpr double kSteady = 0.7071;
 
 using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Derivatives = Eigen::Matrix<double, kPixels, 8>;
@@ -177,15 +183,78 @@ void append(const Plane& grey, const Gradient& g, const Site& site, const Eigen:
   }
 }
 
-BlockLevel cut(const PyramidLevel& pixels, const Eigen::Matrix3d& scaled, int max_blocks,
-               double noise_grey) {
-  const Plane grey = plane(pixels);
+/// The levels of a picture's pyramid.
+std::vector<Plane> planes(const cv::Mat& picture, int levels) {
+  ImagePyramid pyramid;
+  pyramid.look(picture, {0, 0, double(picture.cols), double(picture.rows)}, levels, Simd::Auto);
+  std::vector<Plane> result;
+  for (int k = 0; k < levels; ++k) result.push_back(plane(pyramid.level(k)));
+  return result;
+}
+
+/// Level k as it is seen where the pixels of a camera lie half a pixel of that level to the right,
+/// below or both, and interpolated back: where that is another picture, the level shows a beat of
+/// the texture with the pixels, not the texture.
+std::vector<Plane> off_grid(const cv::Mat& picture, int k) {
+  const int half = 1 << (k - 1);
+  std::vector<Plane> result;
+  for (const auto& [du, dv] : {std::pair(half, 0), std::pair(0, half), std::pair(half, half)}) {
+    cv::Mat moved;
+    cv::copyMakeBorder(picture, moved, dv, 0, du, 0, cv::BORDER_REPLICATE);
+    const Plane seen = planes(moved, k + 1).back();
+    const int rows = picture.rows >> k;
+    const int cols = picture.cols >> k;
+    const int below = dv > 0 ? 1 : 0;
+    const int right = du > 0 ? 1 : 0;
+    Plane back(rows, cols);
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < cols; ++x) {
+        const int y1 = std::min(y + below, int(seen.rows()) - 1);
+        const int x1 = std::min(x + right, int(seen.cols()) - 1);
+        back(y, x) = (seen(y, x) + seen(y1, x) + seen(y, x1) + seen(y1, x1)) / 4;
+      }
+    }
+    result.push_back(std::move(back));
+  }
+  return result;
+}
+
+/// Zero-mean normalised cross-correlation of a block of two pictures.
+double correlation(const Plane& a, const Plane& b, const Site& site) {
+  const auto block = [&](const Plane& grey) {
+    Eigen::ArrayXXd pixels = grey.block<kSide, kSide>(site.v, site.u).cast<double>();
+    pixels -= pixels.mean();
+    return pixels;
+  };
+  const Eigen::ArrayXXd p = block(a);
+  const Eigen::ArrayXXd q = block(b);
+  const double norm = std::sqrt(p.square().sum() * q.square().sum());
+  return norm > 0 ? (p * q).sum() / norm : 0;
+}
+
+/// Sites of a coarse level that look the same, up to half their variance, wherever the pixels lie.
+std::vector<Site> steady(const std::vector<Site>& all, const Plane& grey,
+                         const std::vector<Plane>& others) {
+  std::vector<Site> result;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(result), [&](const Site& site) {
+    return std::all_of(others.begin(), others.end(), [&](const Plane& other) {
+      return correlation(grey, other, site) > kSteady;
+    });
+  });
+  return result;
+}
+
+/// Blocks of one level; none when most of what it shows depends on where the pixels lie.
+BlockLevel cut(const Plane& grey, const std::vector<Plane>& others, const Eigen::Matrix3d& scaled,
+               int max_blocks, double noise_grey) {
   const Gradient g = gradient(grey);
   BlockLevel level;
-  level.width = pixels.right;
-  level.height = pixels.bottom;
-  for (const Site& site :
-       spread(sites(grey, g, noise_grey), level.width, level.height, max_blocks)) {
+  level.width = int(grey.cols());
+  level.height = int(grey.rows());
+  const std::vector<Site> textured = sites(grey, g, noise_grey);
+  const std::vector<Site> kept = steady(textured, grey, others);
+  if (2 * kept.size() < textured.size()) return level;
+  for (const Site& site : spread(kept, level.width, level.height, max_blocks)) {
     append(grey, g, site, scaled, level);
   }
   return level;
@@ -240,13 +309,13 @@ TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& optio
   result.height = picture.rows;
   result.options = options;
   const Eigen::Matrix3d scaled = scaled_from_template(picture.cols, picture.rows);
-  ImagePyramid pyramid;
   const int levels = level_count(picture.cols, picture.rows);
-  pyramid.look(picture, {0, 0, double(picture.cols), double(picture.rows)}, levels, Simd::Auto);
+  const std::vector<Plane> all = planes(picture, levels);
   for (int k = 0; k < levels; ++k) {
+    const std::vector<Plane> others = k == 0 ? std::vector<Plane>() : off_grid(picture, k);
     const int most = k == 0 ? options.max_blocks : options.max_coarse_blocks;
     result.levels.push_back(
-        cut(pyramid.level(k), scaled * level0_from_level(k), most, options.noise_grey));
+        cut(all[std::size_t(k)], others, scaled * level0_from_level(k), most, options.noise_grey));
   }
   return result;
 }

@@ -20,6 +20,7 @@ namespace {
 struct Arguments {
   std::int64_t frames = 4000;
   std::uint64_t seed = 1;
+  std::string cls = "nominal";
   std::vector<std::string> textures;
   std::vector<std::string> methods;
 };
@@ -29,6 +30,8 @@ Arguments arguments(int argc, char** argv) {
   CLI::App app("Templates searched for in frames that do not show them");
   app.add_option("--frames", a.frames, "for each template")->check(CLI::PositiveNumber);
   app.add_option("--seed", a.seed, "of the frames");
+  app.add_option("--class", a.cls,
+                 "whose first frame is learned: it says how large the template is");
   app.add_option("--texture", a.textures, "templates; all of the dev set unless named");
   app.add_option("--method", a.methods, "only these");
   try {
@@ -42,7 +45,7 @@ Arguments arguments(int argc, char** argv) {
 
 /// The template as the rendered sequences show it; then only frames without it.
 void print_accepts(const std::string& texture, const Arguments& a) {
-  const StressSequence sequence = stress_sequence({"nominal", texture, 1, 1});
+  const StressSequence sequence = stress_sequence({a.cls, texture, 1, 1});
   const Frame first = sequence.sequence.open()->next().value();
   const std::vector<BenchMethod> methods = bench_methods(a.methods);
   std::vector<BenchTracker> trackers;

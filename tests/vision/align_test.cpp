@@ -90,6 +90,32 @@ TEST(Align, PullsInFromAQuarterOfTheTemplateAfterASearch) {
   }
 }
 
+TEST(Align, TakesTheStartWhereCoarseLevelsLeadAway) {
+  // Broad light on a fine print, in the template and in the scene, where the light has moved by
+  // 9 px and the print has not: coarse levels follow the light, the finest one knows better.
+  test::Random random("light and print");
+  cv::Mat print(kSide, kSide, CV_8UC1);
+  for (int i = 0; i < int(print.total()); ++i) print.data[i] = uchar(random.integer(64, 192));
+  cv::GaussianBlur(print, print, {}, 0.8);
+  const cv::Mat light = test::texture(kSide, kSide, random);
+  cv::Mat broad;
+  cv::GaussianBlur(light, broad, {}, 6);
+  const auto lit = [&](int by) {
+    cv::Mat moved;
+    cv::copyMakeBorder(broad, moved, 0, 0, by, 0, cv::BORDER_REFLECT);
+    cv::Mat both;
+    cv::addWeighted(print, 2, moved.colRange(0, kSide), 1, -256, both);
+    return both;
+  };
+  Aligner with(template_blocks(lit(0), {}), {});
+  const Homography H = test::translation(100, 60);
+  cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(128));
+  lit(9).copyTo(image(cv::Rect(100, 60, kSide, kSide)));
+  const auto found = aligned(with, image, H);
+  ASSERT_TRUE(found);
+  EXPECT_LT(error_px(*found, H), 0.5);
+}
+
 TEST(Align, DoesNotMindGainBiasAndShade) {
   const Homography H = test::moved({1, 0.2, 0.3, 1}, kMiddle, kThere);
   cv::Mat image = scene(H);

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "kestrel/vision/motion_blur.hpp"
+
 #include "support/planted_target.hpp"
 
 namespace kestrel {
@@ -91,6 +93,50 @@ TEST(TargetSearch, ACoveredTargetIsAWeakSight) {
   ASSERT_TRUE(part.is_accepted());
   EXPECT_TRUE(search().is_weak(*part.at));
   EXPECT_LT(error_px(part.at->image_from_template, truth), 0.5);
+}
+
+TEST(TargetSearch, FollowsWhatMotionBlurs) {
+  // 22 px long, between the directions that were learned, in a picture that is turned and larger:
+  // aligned with the sharp template alone the corners are 5 px off.
+  const Homography truth = placed_at({205, 148}, {1.2, 0.4, 0.2, 1});
+  const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
+  const MotionBlur motion{22, 2.6};
+  const Homography off = shifted(truth, 4, -3);
+  const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, off);
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_FALSE(search().is_weak(*seen.at));
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
+}
+
+/// A texture twice side by side, on the ground.
+class RepeatedTarget : public testing::Test {
+ protected:
+  static constexpr int kPeriod = 80;
+
+  static cv::Mat picture() {
+    test::Random random("a period");
+    const cv::Mat period = test::texture(kPeriod, test::kTargetHeight, random);
+    cv::Mat all;
+    cv::repeat(period, 1, test::kTargetWidth / kPeriod, all);
+    return all;
+  }
+  static cv::Mat scene() {
+    cv::Mat image = test::ground();
+    const PixelBox& at = test::kLearnedAt;
+    picture().copyTo(image(cv::Rect(int(at.u), int(at.v), int(at.width), int(at.height))));
+    return image;
+  }
+};
+
+TEST_F(RepeatedTarget, IsHeldAgainstThePlacesWhereItIsLikeItself) {
+  // Half of it shows when its one half is taken for the other: not as much as where it is.
+  const Template repeated(scene(), test::kLearnedAt, {});
+  TargetSearch with(repeated, {});
+  const Homography truth = test::learned_place();
+  const Homography beside = shifted(truth, kPeriod, 0);
+  const Sighting seen = with.follow(frame_of(scene()), beside, beside);
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
 }
 
 TEST(TargetSearch, DetectsAndRefinesOnThePixels) {

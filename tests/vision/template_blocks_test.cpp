@@ -161,6 +161,25 @@ TEST(TemplateBlocks, LeaveOutWhatIsNoMoreThanNoise) {
   }
 }
 
+TEST(TemplateBlocks, LeaveOutLevelsThatShowABeatOfTexturePixels) {
+  // Stripes 2.3 px wide are seen at half the resolution as stripes of 15 px, which move by a third
+  // of that when the pixels move by one.
+  cv::Mat fine(80, 80, CV_8UC1);
+  cv::Mat broad(80, 80, CV_8UC1);
+  for (int v = 0; v < 80; ++v) {
+    for (int u = 0; u < 80; ++u) {
+      fine.at<uchar>(v, u) = uchar(std::lround(128 + 90 * std::sin(2 * M_PI * u / 2.3)));
+      broad.at<uchar>(v, u) = uchar(std::lround(128 + 90 * std::sin(2 * M_PI * u / 11.5)));
+    }
+  }
+  const TemplateBlocks beats = template_blocks(fine, {});
+  EXPECT_FALSE(beats.levels[0].blocks.empty());
+  EXPECT_TRUE(beats.levels[1].blocks.empty());
+  EXPECT_FALSE(template_blocks(broad, {}).levels[1].blocks.empty());
+  cv::rotate(fine, fine, cv::ROTATE_90_CLOCKWISE);
+  EXPECT_TRUE(template_blocks(fine, {}).levels[1].blocks.empty());
+}
+
 TEST(TemplateBlocks, WarpIsTheIdentityForZeroAndItsInverseToFirstOrder) {
   EXPECT_EQ(warp(Vector8d::Zero()), Eigen::Matrix3d::Identity());
   test::Random random("warp");

@@ -54,6 +54,9 @@ class Aligner {
   /// coarsest level.
   double likeness(const ImagePyramid& image, const Homography& image_from_template);
 
+  /// The same at the finest level that is used there.
+  double detail(const ImagePyramid& image, const Homography& image_from_template);
+
   /// The start, or the place next to it, shifted by whole pixels of the coarsest level, where the
   /// image shows more of the template's texture.
   Homography search(const ImagePyramid& image, const Homography& start);
@@ -66,6 +69,7 @@ class Aligner {
 
  private:
   struct Scratch;
+  double likeness_at(const ImagePyramid& image, const Homography& H, int in_template, int in_image);
   TemplateBlocks blocks_;
   AlignOptions options_;
   std::unique_ptr<Scratch> scratch_;

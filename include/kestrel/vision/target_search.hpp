@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -42,7 +43,8 @@ class TargetSearch {
   TargetSearch(const Template& model, const TrackOptions& options);
 
   /// The template near where it was: aligned from the last place or from the one ahead, whichever
-  /// shows more of it; when that is in doubt, from the likeliest place around. Allocates nothing.
+  /// shows more of it; when that is in doubt, from the likeliest place around, and with the views
+  /// that motion blurs. Allocates nothing.
   Sighting follow(const Frame& frame, const Homography& last, const Homography& ahead);
 
   /// The template in a window, from its keypoints. Of several places that look like the template
@@ -67,12 +69,23 @@ class TargetSearch {
   bool is_possible(const Alignment& place) const;
   Choice choose(const std::vector<Place>& places, const std::optional<Expectation>& expected) const;
 
+  /// A place to align a blurred view from.
+  struct Guess {
+    std::size_t blur = 0;
+    Homography start;
+    double likeness = 0;
+  };
+  void follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting);
+  bool is_doubtful(const std::optional<Alignment>& place) const;
+  bool may_be_blurred(const std::optional<Alignment>& place) const;
   void settle(const Frame& frame, Sighting& sighting);
 
   const Template& model_;
   TrackOptions options_;
   SelfLikeness self_;
   Aligner aligner_;
+  std::vector<Aligner> blurred_;  // of model_.blurred(); none for a template that is like itself
+  std::vector<Guess> guesses_;
   Detector detector_;
   ImagePyramid pyramid_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -38,6 +39,8 @@ class Template {
   /// Keypoints of nine views and the blocks of pixels; only when learned for Detect or Hybrid.
   const LearnedFeatures& features() const { return features_; }
   const TemplateBlocks& blocks() const { return blocks_; }
+  /// The blocks as a moving camera blurs them, in the order of motion_blurs().
+  const std::vector<TemplateBlocks>& blurred() const { return blurred_; }
 
  private:
   PixelBox box_;
@@ -46,6 +49,7 @@ class Template {
   std::optional<Matcher> matcher_;
   LearnedFeatures features_;
   TemplateBlocks blocks_;
+  std::vector<TemplateBlocks> blurred_;
 };
 
 }  // namespace kestrel
