@@ -18,13 +18,17 @@ constexpr double kGone = 1e-9;  // of the offset at the start
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
+/// To the right of the helicopter at its goal, NED.
+Eigen::Vector3d lateral_axis(const HelicopterScenario& scenario) {
+  return rotation_from_rpy(0, 0, goal_heading(scenario)).col(1);
+}
+
 /// The setup beside its goal, at rest, with nothing that is not linear for a small offset.
 HelicopterSetup beside_goal(HelicopterSetup setup, const HelicopterMarginOptions& options) {
   HelicopterScenario& s = setup.scenario;
-  const double heading_rad = goal_heading(s);
   const Eigen::Vector3d goal_m = (s.world_from_target * s.goal.inverse()).translation;
-  s.start_yaw_rad = heading_rad;
-  s.start_camera_m = goal_m + rotation_from_rpy(0, 0, heading_rad).col(1) * options.offset_m;
+  s.start_yaw_rad = goal_heading(s);
+  s.start_camera_m = goal_m + lateral_axis(s) * options.offset_m;
   HelicopterConditions& c = setup.conditions;
   c.limits.reset();
   c.loss.reset();
@@ -52,8 +56,9 @@ bool settles_laterally(const HelicopterSetup& wanted, double gain_per_s,
   HelicopterSetup setup = beside_goal(wanted, options);
   setup.conditions.gain_per_s = gain_per_s;
   std::vector<double> offsets_m;
+  const Eigen::Vector3d right = lateral_axis(setup.scenario);
   const RunResult result = run_helicopter(setup, [&](const HelicopterStep& step) {
-    offsets_m.push_back(step.position_error_m.norm());
+    offsets_m.push_back(std::abs(step.position_error_m.dot(right)));
   });
   if (result.end == RunEnd::Diverged || result.end == RunEnd::Collision) return false;
   const auto quarter = std::ptrdiff_t(offsets_m.size() / 4);

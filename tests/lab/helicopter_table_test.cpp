@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "kestrel/lab/helicopter_benchmark.hpp"
 #include "kestrel/lab/helicopter_margins.hpp"
 
 #include "lab/support/lateral_loop.hpp"
@@ -11,9 +10,9 @@
 namespace kestrel {
 namespace {
 
-// Published limits are 0.5 to 1.3 % below those of the eigenvalues; but the last: the linear loop's
-// limit at 1.93 s per command without latency is 2.005/s, not 1.80/s. From 0.5 m aside, where the
-// tilt is no longer small, the limit is 1.80/s.
+// Published limits are 0.5 to 1.3 % below those of the eigenvalues; but the last, 1.80/s: the
+// lateral loop's limit at 1.93 s per command without latency is 2.005/s. The vertical loop's is
+// 1.747/s (tau_z = 0.4 s, by hand), so that a run judged by the whole offset ends in between.
 TEST(HelicopterTable, GainLimits) {
   const std::pair<double, double> published[] = {{5.46, 5.46}, {4.65, 5.46}, {3.65, 5.46},
                                                  {2.81, 5.46}, {2.17, 2.17}, {1.16, 2.49},
@@ -35,17 +34,6 @@ TEST(HelicopterTable, GainLimits) {
     EXPECT_NEAR(predicted, test::lateral_gain_limit_oracle(row.period_frames, 0),
                 0.005 * predicted);
   }
-}
-
-TEST(HelicopterTable, TheSlowestLimitIsThatOfALargeOffset) {
-  HelicopterSetup setup =
-      helicopter_experiment(helicopter_h0(), HelicopterVariant::Vp3, Law::Des).setup;
-  setup.conditions.period_frames = 58;
-  HelicopterMarginOptions options;
-  options.offset_m = 0.5;
-  const double limit_per_s = lateral_gain_limit(setup, options).value_or(-1);
-  std::printf("from 0.5 m aside: %6.4f\n", limit_per_s);
-  EXPECT_NEAR(limit_per_s, 1.80, 0.02);
 }
 
 }  // namespace
