@@ -108,7 +108,9 @@ TEST(HelicopterRun, CommandsAreHeldForTheirPeriodAndWithinTheLimits) {
   const VelocityCommand most = CommandLimits{}.speed;
   for (std::size_t k = 1; k + 1 < flight.steps.size(); ++k) {
     const Eigen::Vector4d sent = flight.steps[k].sent.vector();
-    if (k % 5 != 0) EXPECT_EQ(sent, flight.steps[k - 1].sent.vector());
+    if (k % 5 != 0) {
+      EXPECT_EQ(sent, flight.steps[k - 1].sent.vector());
+    }
     EXPECT_TRUE((sent.cwiseAbs().array() <= most.vector().array() + 1e-12).all());
   }
 }
