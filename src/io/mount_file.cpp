@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kLargestDefect = 1e-3;  // of numbers written with three decimals
-constexpr double kRounding = 1e-14;       // of a rotation in full precision
+constexpr double kRounding = 1e-14;      // of a rotation in full precision
 constexpr double kLargestLever_m = 20;
 
 Eigen::Matrix3d rotation_from_matrix(const Section& section) {

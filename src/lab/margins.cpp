@@ -24,7 +24,8 @@ Scenario near_goal(const Scenario& scenario, double share) {
 /// Largest error of the middle and of the last third of a run: their ratio is free of how the run
 /// starts, and the error oscillates in both.
 bool keeps_small_errors(CameraSetup setup, const MarginOptions& options) {
-  constexpr double kGone = 1e-6;           // of the first error: below it rounding rules
+  constexpr double kGone = 1e-6;  // of the first error: below it rounding rules
+  constexpr double kLarge = 100;  // of the first error: grown until the loop is no longer linear
   constexpr double kStillNoGrowth = 1e-7;  // an error that stays, up to rounding, does not grow
   setup.scenario = near_goal(setup.scenario, options.offset_share);
   std::array<double, 3> largest{};
@@ -36,6 +37,7 @@ bool keeps_small_errors(CameraSetup setup, const MarginOptions& options) {
     third = std::max(third, e);
   });
   if (result.steps < setup.conditions.steps) return false;  // collided or flew away
+  if (*std::max_element(largest.begin(), largest.end()) > kLarge * first) return false;
   return largest[2] <= kGone * first || largest[2] <= (1 + kStillNoGrowth) * largest[1];
 }
 

@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
 
 #include "kestrel/geometry/rotation.hpp"
 #include "kestrel/io/csv.hpp"
@@ -35,24 +32,13 @@ std::string list(const std::vector<std::string>& words) {
   return "[" + text + "]";
 }
 
-/// The number of a key in its own unit that reads back as this value, to the bit where there is one.
-std::string in_unit(double value, double unit) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double near = value / unit;
-  const double plain = std::stod(fmt::format("{:.14g}", near));  // 90, not 90.00000000000001
-  for (const double written :
-       {plain, near, std::nextafter(near, kInfinity), std::nextafter(near, -kInfinity)}) {
-    if (written * unit == value) return number(written);
-  }
-  return number(near);
-}
-
 template <class Struct>
 std::string numbers_text(const std::vector<NumberKey<Struct>>& keys, const Struct& from) {
   std::string text;
   for (const NumberKey<Struct>& key : keys) {
     const double value = from.*key.number;
-    if (std::isfinite(value)) text += std::string(", ") + key.key + ": " + in_unit(value, key.unit);
+    if (std::isfinite(value))
+      text += std::string(", ") + key.key + ": " + number(in_unit(value, key.unit));
   }
   return text;
 }
@@ -148,7 +134,7 @@ std::string full_text(const HelicopterScenario& s) {
   return "{name: " + quoted(s.name) + ", points_m: [" + points +
          "], goal: " + pose_text(s.goal.rotation, s.goal.translation) +
          ", start_camera_m: " + list(s.start_camera_m) +
-         ", start_yaw_deg: " + in_unit(s.start_yaw_rad, kPlanDegree) +
+         ", start_yaw_deg: " + number(in_unit(s.start_yaw_rad, kPlanDegree)) +
          ", target_velocity_m_s: " + list(s.target_velocity_m_s) + ", body_from_camera: " +
          pose_text(s.body_from_camera.rotation, s.body_from_camera.translation) +
          ", world_from_target: " +

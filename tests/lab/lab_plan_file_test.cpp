@@ -63,7 +63,7 @@ TEST_F(PlanFile, ReadsEveryKey) {
       "  goal: {translation_m: [0, 0, 2], rpy_deg: [0, 0, 90]},\n"
       "  start: {translation_m: [0, 0, 3], rpy_deg: [0, 0, 0]}}]\n"
       "camera: {focal_px: 500, principal_px: [300, 200], size_px: [600, 400]}\n"
-      "conditions: {desired: model, rate_hz: 60, limit_linear_m_s: 2}\n"
+      "conditions: {desired: model, rate_hz: 60, limit_linear_m_s: 2, limit_angular_deg_s: 41.7}\n"
       "rules: {error_threshold: 2e-3, pose_tolerance_deg: 2, settled_steps: 5,\n"
       "  stops_out_of_view: true}\n");
   EXPECT_EQ(plan.title, "t");
