@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kLargestDefect = 1e-3;  // of numbers written with three decimals
+constexpr double kRounding = 1e-14;      // of a rotation in full precision
 constexpr double kLargestLever_m = 20;
 
 Eigen::Matrix3d rotation_from_matrix(const Section& section) {
@@ -31,7 +32,7 @@ Eigen::Matrix3d rotation_from_matrix(const Section& section) {
                  "is a mirror image (determinant -1), no rotation; negate or swap one column, or "
                  "give rpy_deg");
   }
-  return nearest_rotation(M);
+  return columns > kRounding ? nearest_rotation(M) : M;  // what is one stays as it is, to the bit
 }
 
 Eigen::Matrix3d rotation_from_angles(const Section& section) {

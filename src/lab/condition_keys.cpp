@@ -1,6 +1,9 @@
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "kestrel/io/csv.hpp"
 #include "kestrel/io/text_file.hpp"
@@ -39,7 +42,7 @@ ConditionKey count(const std::string& name, int Conditions::*number) {
 ConditionKey limit(const std::string& name, double CameraLimits::*number, double unit) {
   return {name,
           [number, unit](const Conditions& c) {
-            return c.limits ? std::optional((*c.limits).*number / unit) : std::nullopt;
+            return c.limits ? std::optional(in_unit((*c.limits).*number, unit)) : std::nullopt;
           },
           [number, unit](Conditions& c, double value) {
             if (!c.limits) c.limits.emplace();
@@ -85,6 +88,17 @@ const std::vector<std::string>& condition_keys() {
     return all;
   }();
   return names;
+}
+
+double in_unit(double value, double unit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double near = value / unit;
+  const double plain = std::stod(fmt::format("{:.14g}", near));  // 90, not 90.00000000000001
+  for (const double written :
+       {plain, near, std::nextafter(near, kInfinity), std::nextafter(near, -kInfinity)}) {
+    if (written * unit == value) return written;
+  }
+  return near;
 }
 
 std::optional<double> setting_of(const Conditions& conditions, const std::string& key) {

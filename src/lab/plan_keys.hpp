@@ -62,6 +62,9 @@ inline const std::vector<NumberKey<StartBox>>& box_keys() {
   return keys;
 }
 
+/// The number that times the unit is this value, to the bit where there is one; a short one first.
+double in_unit(double value, double unit);
+
 /// The value of a condition's key; empty when it is not set (gain, limits).
 std::optional<double> setting_of(const Conditions& conditions, const std::string& key);
 

@@ -37,7 +37,8 @@ std::string numbers_text(const std::vector<NumberKey<Struct>>& keys, const Struc
   std::string text;
   for (const NumberKey<Struct>& key : keys) {
     const double value = from.*key.number;
-    if (std::isfinite(value)) text += std::string(", ") + key.key + ": " + number(value / key.unit);
+    if (std::isfinite(value))
+      text += std::string(", ") + key.key + ": " + number(in_unit(value, key.unit));
   }
   return text;
 }
@@ -133,7 +134,7 @@ std::string full_text(const HelicopterScenario& s) {
   return "{name: " + quoted(s.name) + ", points_m: [" + points +
          "], goal: " + pose_text(s.goal.rotation, s.goal.translation) +
          ", start_camera_m: " + list(s.start_camera_m) +
-         ", start_yaw_deg: " + number(s.start_yaw_rad / kPlanDegree) +
+         ", start_yaw_deg: " + number(in_unit(s.start_yaw_rad, kPlanDegree)) +
          ", target_velocity_m_s: " + list(s.target_velocity_m_s) + ", body_from_camera: " +
          pose_text(s.body_from_camera.rotation, s.body_from_camera.translation) +
          ", world_from_target: " +
