@@ -86,7 +86,9 @@ TEST(DrawnChannels, AreThoseThatAreDrawnAndFinite) {
   for (const TraceChannel& channel : drawn_channels(trace)) {
     names.push_back(channel.column);
     for (const double value : channel.values) EXPECT_LE(std::abs(value), 1e5) << channel.column;
-    if (channel.column == "error_norm") EXPECT_EQ(channel.values[0], -8);
+    if (channel.column == "error_norm") {
+      EXPECT_EQ(channel.values[0], -8);
+    }
   }
   EXPECT_EQ(names, (std::vector<std::string>{"error_norm", "u0_px", "v0_px", "vx_m_s", "tx_m",
                                              "ty_m", "tz_m", "condition", "sigma_min", "s1"}));
