@@ -1,11 +1,13 @@
 #include "kestrel/lab/lab_page.hpp"
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "kestrel/io/markup.hpp"
+#include "kestrel/io/svg_plot.hpp"
 #include "kestrel/lab/lab_figures.hpp"
 #include "kestrel/lab/page_data.hpp"
 
@@ -24,10 +26,29 @@ struct Part {
   std::string body;
 };
 
+/// Where a picture has its style element, and how long that is.
+std::pair<std::size_t, std::size_t> style_in(const std::string& figure) {
+  constexpr std::string_view kEnd = "</style>";
+  const std::size_t begin = figure.find("<style>");
+  const std::size_t end = figure.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos) return {figure.size(), 0};
+  return {begin, end + kEnd.size() - begin};
+}
+
+/// The style of every picture: once in the page, for hundreds of the same make it slow to open.
+std::string picture_style() {
+  const std::string any = svg_plot({});
+  const auto [begin, length] = style_in(any);
+  return any.substr(begin, length);
+}
+
 std::string plots(const std::vector<std::string>& figures) {
   std::string out = "<div class=\"plots\">\n";
-  for (const std::string& figure : figures)
-    if (!figure.empty()) out += "<figure class=\"card\">\n" + figure + "</figure>\n";
+  for (std::string figure : figures) {
+    if (figure.empty()) continue;
+    const auto [begin, length] = style_in(figure);
+    out += "<figure class=\"card\">\n" + figure.erase(begin, length) + "</figure>\n";
+  }
   return out + "</div>\n";
 }
 
@@ -115,8 +136,8 @@ std::string head(const LabReport& report, const std::vector<Part>& parts) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
-      escaped(report.title), page_style());
+      "<title>{0}</title>\n<style>{1}</style>\n{2}\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
+      escaped(report.title), page_style(), picture_style());
   if (!report.what.empty()) out += "<p>" + escaped(report.what) + "</p>\n";
   out += "<nav aria-label=\"Parts of the page\">\n";
   for (const Part& part : parts)

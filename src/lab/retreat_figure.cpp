@@ -9,13 +9,16 @@
 namespace kestrel {
 namespace {
 
+/// Beyond it the curve leaves the paper: 165 deg.
+constexpr double kLargestAngle = 2.8797932657906435;
+
 /// The angle (rad) of a start that is a pure rotation about the optical axis; else none.
 std::optional<double> roll_of(const LabScene& scene) {
   const Eigen::Matrix3d& R = scene.start.axes;
   const bool turns_only = scene.kind == RunKind::Camera && R(2, 2) > 1 - 1e-9 &&
                           (scene.start.origin_m - scene.goal.origin_m).norm() < 1e-9;
   const double angle = std::abs(std::atan2(R(1, 0), R(0, 0)));
-  if (!turns_only || angle < 1e-6) return std::nullopt;
+  if (!turns_only || angle < 1e-6 || angle > kLargestAngle) return std::nullopt;
   return angle;
 }
 
@@ -56,7 +59,7 @@ Series analytic_retreat(const std::vector<Turn>& turns) {
   const auto& points = turns.front().scene->points_m;
   for (const Eigen::Vector3d& p : points) centre += p / double(points.size());
   const double distance_m = (centre - turns.front().scene->goal.origin_m).norm();
-  const double last = std::min(turns.back().angle_rad, 165 * M_PI / 180);
+  const double last = turns.back().angle_rad;
   for (int i = 0; i <= 60; ++i) {
     const double angle = last * i / 60;
     line.x.push_back(angle * 180 / M_PI);

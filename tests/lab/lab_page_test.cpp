@@ -77,6 +77,14 @@ TEST(LabPage, TheScriptFindsEveryElementItAsksFor) {
   EXPECT_GT(asked, 20);
 }
 
+TEST(LabPage, PicturesShareOneStyle) {
+  const std::string page = lab_page(full());
+  const std::regex style("<style");
+  // The page's, the pictures', and the one that the script fills.
+  EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), style), {}), 3);
+  EXPECT_THAT(page, HasSubstr(".kl{fill:none"));
+}
+
 TEST(LabPage, EmptyPartsAreLeftOut) {
   const std::string page = lab_page({});
   EXPECT_THAT(page, Not(HasSubstr("<script")));

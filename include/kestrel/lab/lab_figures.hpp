@@ -14,9 +14,9 @@ namespace kestrel {
 std::vector<std::string> scenario_figures(const LabReport& report, const std::string& scenario,
                                           const std::string& modifier);
 
-/// Retreat over the angle of the scenarios that start with a pure rotation about the optical axis,
-/// unmodified and converged, with Z* (1 / cos(angle / 2) - 1) (servo.md 2.1). Laws that never
-/// retreat a millimetre are left out. Empty below two angles.
+/// Retreat over the angle of the scenarios that start with a pure rotation about the optical axis
+/// of at most 165 deg, unmodified and converged, with Z* (1 / cos(angle / 2) - 1) (servo.md 2.1).
+/// Laws that never retreat a millimetre are left out. Empty below two angles.
 std::string retreat_figure(const LabReport& report);
 
 /// The shares of starts from which each law arrived, in percent, with their intervals.
