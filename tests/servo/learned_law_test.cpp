@@ -106,8 +106,9 @@ TEST(LearnedLaw, LearnsTheTrueMatrix) {
     LawOptions options = test::unit_options(law);
     options.forgetting = 1;
     options.learning_gate = 0;
-    options.initial_covariance = 1e12;  // motions of 1e-4 shall outweigh what was believed before
     LawState state = untaught(law);
+    // Motions of 1e-4 shall outweigh what was believed before.
+    if (law == Law::Rls) state.covariance = 1e12 * Matrix6d::Identity();
     TargetPose pose = test::kS0;
     const Eigen::MatrixXd L =
         test::oracle_interaction(test::input_at(pose).measured).cast<double>();
