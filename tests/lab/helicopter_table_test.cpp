@@ -29,8 +29,9 @@ TEST(HelicopterTable, GainLimits) {
                 row.period_frames * kHelicopterFrame_s, row.delay_frames * kHelicopterFrame_s,
                 limit, predicted, published[i].first, published[i].second);
     EXPECT_NEAR(limit, published[i].first, 0.015 * limit);
+    // A run of 100 commands tells growth from decay to 1 %.
     EXPECT_NEAR(limit, test::lateral_gain_limit_oracle(row.period_frames, row.delay_frames),
-                0.005 * limit);
+                0.01 * limit);
     const double without_latency = test::lateral_gain_limit_oracle(row.period_frames, 0);
     if (row.period_frames == 58) {
       EXPECT_GT(predicted, 1.74);
@@ -38,7 +39,7 @@ TEST(HelicopterTable, GainLimits) {
       continue;
     }
     EXPECT_NEAR(predicted, published[i].second, 0.015 * predicted);
-    EXPECT_NEAR(predicted, without_latency, 0.005 * predicted);
+    EXPECT_NEAR(predicted, without_latency, 0.01 * predicted);
   }
 }
 
