@@ -11,6 +11,7 @@
 
 #include "compare.hpp"
 #include "evaluate.hpp"
+#include "explain.hpp"
 
 namespace kestrel::app {
 
@@ -73,7 +74,7 @@ struct DemoArguments {
 
 using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
                                CheckArguments, DemoArguments, EvaluateArguments, CompareArguments,
-                               MergeArguments, LawsArguments>;
+                               MergeArguments, LawsArguments, ExplainArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

@@ -131,6 +131,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   const auto compare = std::make_shared<CompareArguments>();
   const auto merge = std::make_shared<MergeArguments>();
   const auto laws = std::make_shared<LawsArguments>();
+  const auto explain = std::make_shared<ExplainArguments>();
   add_track(app, track);
   add_servo(app, servo);
   add_simulate(app, simulate);
@@ -144,6 +145,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_compare(app, compare);
   add_merge(app, merge);
   add_laws(app, laws);
+  add_explain(app, explain);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -161,6 +163,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("compare")) return Arguments(*compare);
   if (app.got_subcommand("merge")) return Arguments(*merge);
   if (app.got_subcommand("laws")) return Arguments(*laws);
+  if (app.got_subcommand("explain")) return Arguments(*explain);
   return Arguments(*demo);
 }
 

@@ -9,8 +9,10 @@
 #include "kestrel/lab/lab_plan_file.hpp"
 
 #include "compare_folder.hpp"
+#include "compare_run.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "recorded_run.hpp"
 #include "this_program.hpp"
 #include "verbs.hpp"
 
@@ -61,6 +63,7 @@ void tell(const LabOutcome& outcome, const CompareArguments& a) {
 }  // namespace
 
 int run(const CompareArguments& a) {
+  if (is_run_folder(a.plan)) return compare_run(a);
   const std::filesystem::path folder =
       a.output.empty() ? std::filesystem::path("runs") / a.plan.stem() : a.output;
   const LabPlan wanted = load_plan(a.plan);

@@ -19,9 +19,11 @@ enum class Printed { Tables, Json };
 
 /// What `compare` was asked to do.
 struct CompareArguments {
-  std::filesystem::path plan;
-  std::filesystem::path output;  // empty: runs/<name of the plan>
-  int jobs = 0;                  // 0: as many as the machine has cores
+  std::filesystem::path plan;     // or a run folder
+  std::filesystem::path output;   // empty: runs/<name of the plan>, or `laws` in the run folder
+  std::vector<std::string> laws;  // to put a run folder through; empty: all
+  std::filesystem::path task;     // of a run folder, in place of its own
+  int jobs = 0;                   // 0: as many as the machine has cores
   Shard shard{};
   Earlier earlier = Earlier::Used;
   Printed printed = Printed::Tables;

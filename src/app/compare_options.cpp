@@ -22,15 +22,29 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
+CLI::Validator law_name() {
+  return {
+      [](std::string& law) { return law_named(law) ? std::string() : "there is no law " + law; },
+      "NAME", "law"};
+}
+
 }  // namespace
 
 void add_compare(CLI::App& app, const std::shared_ptr<CompareArguments>& a) {
   auto* verb = app.add_subcommand(
       "compare", "Run control laws over scenarios and modifiers, and put them side by side");
-  verb->add_option("PLAN", a->plan, "Plan of the comparison (tasks/compare_*.yaml)")->required();
+  verb->add_option("PLAN", a->plan,
+                   "Plan of the comparison (tasks/compare_*.yaml), or the folder of a 'servo' or "
+                   "'simulate' run: what would each law have commanded at each of its frames")
+      ->required();
+  verb->add_option("--laws", a->laws, "Laws for a run folder (default: all)")
+      ->delimiter(',')
+      ->check(law_name());
+  verb->add_option("--task", a->task, "Task file of a run folder, in place of the one it keeps");
   verb->add_option("--output", a->output,
                    "Run folder; one that is there is continued: finished runs of the same program "
-                   "and plan are not made again (default runs/<name of the plan>)");
+                   "and plan are not made again (default runs/<name of the plan>, or laws/ in a "
+                   "run folder)");
   verb->add_option("--jobs", a->jobs, "Runs at a time (default: the number of cores)")
       ->check(CLI::Range(1, 1024));
   verb->add_option_function<std::string>(
@@ -61,11 +75,7 @@ void add_merge(CLI::App& app, const std::shared_ptr<MergeArguments>& a) {
 void add_laws(CLI::App& app, const std::shared_ptr<LawsArguments>& a) {
   auto* verb = app.add_subcommand("laws", "Say which control laws there are and what they need");
   verb->add_option("LAW", a->law, "One law, in full (default: all, one line each)")
-      ->check(CLI::Validator(
-          [](std::string& law) {
-            return law_named(law) ? std::string() : "there is no law " + law;
-          },
-          "NAME", "law"));
+      ->check(law_name());
 }
 
 }  // namespace kestrel::app

@@ -9,6 +9,7 @@
 #include "kestrel/io/run_folder.hpp"
 
 #include "progress.hpp"
+#include "recorded_run.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -34,6 +35,7 @@ const std::vector<ReportFile>& file_words() {
       {"commands.csv", "the commands as the receiver got them"},
       {"trajectory.tum", "true path of the helicopter: time, position, quaternion (NED)"},
       {"configuration.yaml", "the task as it was read"},
+      {kOriginFile, "where it was read from: its paths are relative to that place"},
       {"report.html", "this page"},
   };
   return words;
@@ -50,6 +52,9 @@ RunRecorder::RunRecorder(const RecorderOptions& options)
   if (options.video) video_ = std::make_unique<VideoWriter>(folder_ / "run.mp4", options.rate_hz);
   if (!options.configuration.empty()) {
     write_text(folder_ / options.configuration_name, options.configuration);
+  }
+  if (!options.task.empty()) {
+    write_text(folder_ / kOriginFile, std::filesystem::absolute(options.task).string() + "\n");
   }
 }
 

@@ -28,6 +28,7 @@ struct RecorderOptions {
   std::vector<std::string> extra_columns;
   std::string configuration;  // text of the effective configuration
   std::string configuration_name = "configuration.yaml";
+  std::filesystem::path task;  // where the configuration was read from; empty: nowhere
 };
 
 /// Times of one frame's stages, ms.

@@ -38,6 +38,7 @@ RecorderOptions recorder_options(const RunArguments& run, const std::filesystem:
   options.display = run.display;
   options.extra_columns = extra_columns;
   options.configuration = text_of(task);
+  options.task = task;
   return options;
 }
 

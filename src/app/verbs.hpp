@@ -19,5 +19,6 @@ int run(const EvaluateArguments& arguments);
 int run(const CompareArguments& arguments);
 int run(const MergeArguments& arguments);
 int run(const LawsArguments& arguments);
+int run(const ExplainArguments& arguments);
 
 }  // namespace kestrel::app
