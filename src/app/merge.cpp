@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// The plan's text, which all shards have.
 std::string common_text(const std::vector<fs::path>& shards) {
-  const std::string text = read_text(shards.front() / kPlanFile);
+  std::string text = read_text(shards.front() / kPlanFile);
   for (const fs::path& shard : shards) {
     if (read_text(shard / kPlanFile) != text) {
       throw std::runtime_error((shard / kPlanFile).string() + ": is another plan than that of " +

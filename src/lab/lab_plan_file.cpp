@@ -17,6 +17,7 @@ constexpr const char* kAll = "all";
 
 std::vector<std::string> names(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> all;
+  all.reserve(scenarios.size());
   for (const Scenario& scenario : scenarios) all.push_back(scenario.name);
   return all;
 }
