@@ -49,8 +49,8 @@ std::string words(const SummaryValue& value, int digits) {
 /// "median_px" -> "median (px)".
 std::string heading(const std::string& name) {
   static const std::pair<const char*, const char*> units[] = {
-      {"_percent", "%"}, {"_per_s", "1/s"}, {"_px", "px"},
-      {"_ms", "ms"},     {"_s", "s"},       {"_frames", "frames"}};
+      {"_percent", "%"}, {"_per_s", "1/s"}, {"_rad_s", "rad/s"}, {"_m_s", "m/s"},
+      {"_px", "px"},     {"_ms", "ms"},     {"_s", "s"},         {"_frames", "frames"}};
   std::string text = name;
   for (const auto& [ending, unit] : units) {
     const std::string end = ending;
