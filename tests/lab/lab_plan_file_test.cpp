@@ -34,8 +34,8 @@ class PlanFile : public ::testing::Test {
 };
 
 TEST_F(PlanFile, TheShippedPlansReadAndSayThemselvesAgain) {
-  for (const char* name :
-       {"compare_6dof", "compare_basins", "compare_helicopter", "compare_quick"}) {
+  for (const char* name : {"compare_6dof", "compare_basins", "compare_helicopter",
+                           "compare_levelling", "compare_quick", "compare_rotation"}) {
     SCOPED_TRACE(name);
     const LabPlan plan = load_plan(kTasks / (std::string(name) + ".yaml"));
     EXPECT_EQ(plan_text(again(plan)), plan_text(plan));
