@@ -188,6 +188,7 @@ std::vector<Plane> planes(const cv::Mat& picture, int levels) {
   ImagePyramid pyramid;
   pyramid.look(picture, {0, 0, double(picture.cols), double(picture.rows)}, levels, Simd::Auto);
   std::vector<Plane> result;
+  result.reserve(std::size_t(levels));
   for (int k = 0; k < levels; ++k) result.push_back(plane(pyramid.level(k)));
   return result;
 }
@@ -248,7 +249,7 @@ std::vector<Site> steady(const std::vector<Site>& all, const Plane& grey,
 /// the pixels lie.
 std::vector<Site> steady_sites(const cv::Mat& picture, int k, const Plane& grey, const Gradient& g,
                                double noise_grey) {
-  const std::vector<Site> textured = sites(grey, g, noise_grey);
+  std::vector<Site> textured = sites(grey, g, noise_grey);
   if (k == 0) return textured;
   const std::vector<Site> kept = steady(textured, grey, off_grid(picture, k));
   return 2 * kept.size() < textured.size() ? std::vector<Site>() : kept;
