@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include "sift/exact_math.hpp"
 
@@ -43,6 +43,37 @@ cv::Mat line_kernel(const MotionBlur& motion, int radius) {
   return kernel;
 }
 
+/// Of a kernel what is not 0: a line is a tenth of its square.
+struct Tap {
+  int x = 0;
+  int y = 0;
+  float weight = 0;
+};
+
+std::vector<Tap> taps(const cv::Mat& kernel) {
+  std::vector<Tap> result;
+  for (int y = 0; y < kernel.rows; ++y) {
+    for (int x = 0; x < kernel.cols; ++x) {
+      const float weight = kernel.at<float>(y, x);
+      if (weight > 0) result.push_back({x, y, weight});
+    }
+  }
+  return result;
+}
+
+/// The rectangle and so many pixels about it.
+cv::Mat with_border(const cv::Mat& gray, const PixelBox& box, int radius) {
+  const cv::Rect wanted(int(box.u) - radius, int(box.v) - radius, int(box.width) + 2 * radius,
+                        int(box.height) + 2 * radius);
+  const cv::Rect there = wanted & cv::Rect(0, 0, gray.cols, gray.rows);
+  cv::Mat result;
+  cv::copyMakeBorder(gray(there), result, there.y - wanted.y, wanted.br().y - there.br().y,
+                     there.x - wanted.x, wanted.br().x - there.br().x,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  result.convertTo(result, CV_32F);
+  return result;
+}
+
 }  // namespace
 
 std::vector<MotionBlur> motion_blurs(double width_px, double height_px) {
@@ -58,23 +89,30 @@ std::vector<MotionBlur> motion_blurs(double width_px, double height_px) {
 
 cv::Mat blurred(const cv::Mat& gray, const PixelBox& box, const MotionBlur& motion) {
   const int radius = int(std::ceil(motion.length_px / 2)) + 1;
-  const cv::Rect rect(int(box.u), int(box.v), int(box.width), int(box.height));
-  const cv::Rect around = (rect + cv::Size(2 * radius, 2 * radius) - cv::Point(radius, radius)) &
-                          cv::Rect(0, 0, gray.cols, gray.rows);
-  cv::Mat result;
-  cv::filter2D(gray(around), result, CV_8U, line_kernel(motion, radius), {-1, -1}, 0,
-               cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-  return result(rect - around.tl()).clone();
+  const std::vector<Tap> line = taps(line_kernel(motion, radius));
+  const cv::Mat around = with_border(gray, box, radius);
+  cv::Mat result(int(box.height), int(box.width), CV_8UC1);
+  std::vector<float> sum(std::size_t(result.cols));
+  for (int y = 0; y < result.rows; ++y) {
+    std::fill(sum.begin(), sum.end(), 0.5F);  // to round
+    for (const Tap& tap : line) {
+      const float* from = around.ptr<float>(y + tap.y) + tap.x;
+      for (std::size_t x = 0; x < sum.size(); ++x) sum[x] += tap.weight * from[x];
+    }
+    auto* to = result.ptr<uchar>(y);
+    for (std::size_t x = 0; x < sum.size(); ++x) to[x] = uchar(std::min(int(sum[x]), 255));
+  }
+  return result;
 }
 
 std::vector<TemplateBlocks> blurred_blocks(const cv::Mat& gray, const PixelBox& box,
-                                           const BlockOptions& options) {
-  BlockOptions fewer = options;
-  fewer.max_blocks = std::max(options.max_blocks / 2, 4);
-  fewer.max_coarse_blocks = std::max(options.max_coarse_blocks / 2, 4);
+                                           const TemplateBlocks& sharp) {
+  BlockOptions fewer = sharp.options;
+  fewer.max_blocks = std::max(fewer.max_blocks / 2, 4);
+  fewer.max_coarse_blocks = std::max(fewer.max_coarse_blocks / 2, 4);
   std::vector<TemplateBlocks> result;
   for (const MotionBlur& motion : motion_blurs(box.width, box.height)) {
-    result.push_back(template_blocks(blurred(gray, box, motion), fewer));
+    result.push_back(template_blocks(blurred(gray, box, motion), fewer, sharp));
   }
   return result;
 }

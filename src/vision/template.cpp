@@ -109,7 +109,7 @@ Template::Template(const cv::Mat& gray, const PixelBox& box, const TrackOptions&
     return;
   }
   blocks_ = enough(template_blocks(picture_, options.blocks), options.align.agreement.min_alike);
-  blurred_ = blurred_blocks(gray, box, options.blocks);
+  if (options.method == TrackMethod::Hybrid) blurred_ = blurred_blocks(gray, box, blocks_);
   FastSiftOptions sift = options.detect.sift;
   sift.simd = options.simd;
   features_ = learn_features(gray, box, sift);

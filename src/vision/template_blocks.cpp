@@ -188,6 +188,7 @@ std::vector<Plane> planes(const cv::Mat& picture, int levels) {
   ImagePyramid pyramid;
   pyramid.look(picture, {0, 0, double(picture.cols), double(picture.rows)}, levels, Simd::Auto);
   std::vector<Plane> result;
+  result.reserve(std::size_t(levels));
   for (int k = 0; k < levels; ++k) result.push_back(plane(pyramid.level(k)));
   return result;
 }
@@ -244,20 +245,14 @@ std::vector<Site> steady(const std::vector<Site>& all, const Plane& grey,
   return result;
 }
 
-/// Blocks of one level; none when most of what it shows depends on where the pixels lie.
-BlockLevel cut(const Plane& grey, const std::vector<Plane>& others, const Eigen::Matrix3d& scaled,
-               int max_blocks, double noise_grey) {
-  const Gradient g = gradient(grey);
-  BlockLevel level;
-  level.width = int(grey.cols());
-  level.height = int(grey.rows());
-  const std::vector<Site> textured = sites(grey, g, noise_grey);
-  const std::vector<Site> kept = steady(textured, grey, others);
-  if (2 * kept.size() < textured.size()) return level;
-  for (const Site& site : spread(kept, level.width, level.height, max_blocks)) {
-    append(grey, g, site, scaled, level);
-  }
-  return level;
+/// The textured sites of level k that are steady; none when most of what it shows depends on where
+/// the pixels lie.
+std::vector<Site> steady_sites(const cv::Mat& picture, int k, const Plane& grey, const Gradient& g,
+                               double noise_grey) {
+  std::vector<Site> textured = sites(grey, g, noise_grey);
+  if (k == 0) return textured;
+  const std::vector<Site> kept = steady(textured, grey, off_grid(picture, k));
+  return 2 * kept.size() < textured.size() ? std::vector<Site>() : kept;
 }
 
 int level_count(int width, int height) {
@@ -271,6 +266,34 @@ int level_count(int width, int height) {
 
 void require(bool holds, const char* message) {
   if (!holds) throw std::invalid_argument(message);
+}
+
+/// All levels, each at those of the sites that choose(k, grey, gradient) names.
+template <typename Choose>
+TemplateBlocks cut(const cv::Mat& picture, const BlockOptions& options, const Choose& choose) {
+  options.check();
+  require(!picture.empty() && picture.type() == CV_8UC1 &&
+              std::min(picture.cols, picture.rows) >= kSide,
+          "picture: must be 8-bit grey and at least 8x8 px");
+  TemplateBlocks result;
+  result.width = picture.cols;
+  result.height = picture.rows;
+  result.options = options;
+  const Eigen::Matrix3d scaled = scaled_from_template(picture.cols, picture.rows);
+  const std::vector<Plane> all = planes(picture, level_count(picture.cols, picture.rows));
+  for (int k = 0; k < int(all.size()); ++k) {
+    const Plane& grey = all[std::size_t(k)];
+    const Gradient g = gradient(grey);
+    BlockLevel level;
+    level.width = int(grey.cols());
+    level.height = int(grey.rows());
+    const int most = k == 0 ? options.max_blocks : options.max_coarse_blocks;
+    for (const Site& site : spread(choose(k, grey, g), level.width, level.height, most)) {
+      append(grey, g, site, scaled * level0_from_level(k), level);
+    }
+    result.levels.push_back(std::move(level));
+  }
+  return result;
 }
 
 }  // namespace
@@ -300,24 +323,19 @@ Eigen::Matrix3d scaled_from_template(double width_px, double height_px) {
 }
 
 TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& options) {
-  options.check();
-  require(!picture.empty() && picture.type() == CV_8UC1 &&
-              std::min(picture.cols, picture.rows) >= kSide,
-          "picture: must be 8-bit grey and at least 8x8 px");
-  TemplateBlocks result;
-  result.width = picture.cols;
-  result.height = picture.rows;
-  result.options = options;
-  const Eigen::Matrix3d scaled = scaled_from_template(picture.cols, picture.rows);
-  const int levels = level_count(picture.cols, picture.rows);
-  const std::vector<Plane> all = planes(picture, levels);
-  for (int k = 0; k < levels; ++k) {
-    const std::vector<Plane> others = k == 0 ? std::vector<Plane>() : off_grid(picture, k);
-    const int most = k == 0 ? options.max_blocks : options.max_coarse_blocks;
-    result.levels.push_back(
-        cut(all[std::size_t(k)], others, scaled * level0_from_level(k), most, options.noise_grey));
-  }
-  return result;
+  return cut(picture, options, [&](int k, const Plane& grey, const Gradient& g) {
+    return steady_sites(picture, k, grey, g, options.noise_grey);
+  });
+}
+
+TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& options,
+                               const TemplateBlocks& sharp) {
+  require(picture.cols == sharp.width && picture.rows == sharp.height,
+          "picture: must be as large as the sharp one");
+  return cut(picture, options, [&](int k, const Plane& grey, const Gradient& g) {
+    return sharp.levels[std::size_t(k)].blocks.empty() ? std::vector<Site>()
+                                                       : sites(grey, g, options.noise_grey);
+  });
 }
 
 }  // namespace kestrel

@@ -87,7 +87,7 @@ TEST(MotionBlur, BlocksAreThoseOfTheBlurredPictures) {
   test::Random random("motion blur");
   const cv::Mat gray = test::texture(160, 120, random);
   const PixelBox box{40, 30, 80, 60};
-  const auto all = blurred_blocks(gray, box, {});
+  const auto all = blurred_blocks(gray, box, template_blocks(gray(cv::Rect(40, 30, 80, 60)), {}));
   const auto motions = motion_blurs(80, 60);
   ASSERT_EQ(all.size(), motions.size());
   for (std::size_t k = 0; k < all.size(); k += 5) {

@@ -180,6 +180,20 @@ TEST(TemplateBlocks, LeaveOutLevelsThatShowABeatOfTexturePixels) {
   EXPECT_TRUE(template_blocks(fine, {}).levels[1].blocks.empty());
 }
 
+TEST(TemplateBlocks, OfLessDetailHaveTheLevelsOfTheSharpPicture) {
+  TemplateBlocks sharp = template_blocks(picture(), {});
+  const TemplateBlocks same = template_blocks(picture(), {}, sharp);
+  ASSERT_EQ(same.levels.size(), sharp.levels.size());
+  EXPECT_EQ(same.levels[0].textures, sharp.levels[0].textures);
+  for (const BlockLevel& level : same.levels) EXPECT_FALSE(level.blocks.empty());
+  sharp.levels[1].blocks.clear();
+  const TemplateBlocks without = template_blocks(picture(), {}, sharp);
+  EXPECT_TRUE(without.levels[1].blocks.empty());
+  EXPECT_TRUE(without.levels[1].textures.empty());
+  EXPECT_EQ(without.levels[2].textures, same.levels[2].textures);
+  EXPECT_THROW(template_blocks(picture().colRange(0, 100), {}, sharp), std::invalid_argument);
+}
+
 TEST(TemplateBlocks, WarpIsTheIdentityForZeroAndItsInverseToFirstOrder) {
   EXPECT_EQ(warp(Vector8d::Zero()), Eigen::Matrix3d::Identity());
   test::Random random("warp");

@@ -139,6 +139,7 @@ TEST(Template, LearnsForItsMethodOnly) {
     EXPECT_TRUE(model.keypoints().at.empty());
     EXPECT_FALSE(model.features().at.empty());
     EXPECT_FALSE(model.blocks().levels.empty());
+    EXPECT_EQ(model.blurred().empty(), method == TrackMethod::Detect);  // which follows nothing
   }
 }
 

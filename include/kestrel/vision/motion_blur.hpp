@@ -26,9 +26,10 @@ std::vector<MotionBlur> motion_blurs(double width_px, double height_px);
 /// beyond the image is taken to be as its edge.
 cv::Mat blurred(const cv::Mat& gray, const PixelBox& box, const MotionBlur& motion);
 
-/// The rectangle box of an 8-bit grey image, cut into blocks under each of its motion_blurs(). Half
-/// as many blocks as the options say: a blurred picture has less to show.
+/// The rectangle box of an 8-bit grey image, cut into blocks under each of its motion_blurs(), at
+/// the levels at which the sharp rectangle has blocks. Half as many as that was cut with: a blurred
+/// picture has less to show.
 std::vector<TemplateBlocks> blurred_blocks(const cv::Mat& gray, const PixelBox& box,
-                                           const BlockOptions& options);
+                                           const TemplateBlocks& sharp);
 
 }  // namespace kestrel

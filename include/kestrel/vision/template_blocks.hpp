@@ -65,4 +65,10 @@ Eigen::Matrix3d scaled_from_template(double width_px, double height_px);
 /// spread over the picture.
 TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& options);
 
+/// The same for a picture that shows a sharp one with less detail, of its size: only the levels at
+/// which that one has blocks, since what the sharp one shows steadily, less detail does too.
+/// Whether it does is not looked at again, which takes most of the time.
+TemplateBlocks template_blocks(const cv::Mat& picture, const BlockOptions& options,
+                               const TemplateBlocks& sharp);
+
 }  // namespace kestrel
