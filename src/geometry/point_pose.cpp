@@ -156,7 +156,7 @@ std::optional<TargetPose> point_pose(const std::vector<Eigen::Vector3d>& points_
   const OwnFrame frame = own_frame(points_in_target);
   if (!(frame.spread_m[1] > kFlat * frame.spread_m[0])) return std::nullopt;
   if (previous) {
-    const auto pose = refined(*previous, points_in_target, seen);
+    auto pose = refined(*previous, points_in_target, seen);
     if (pose) return pose;
   }
   return found(frame, points_in_target, seen);
