@@ -208,7 +208,8 @@ TEST(Align, CovarianceTellsHowFarTheCornersScatter) {
     ASSERT_TRUE(found);
     const auto at = outline(found->image_from_template, kSide, kSide);
     Eigen::Matrix<double, 8, 1> x;
-    for (int c = 0; c < 4; ++c) x.segment<2>(2 * c) << at[std::size_t(c)].u, at[std::size_t(c)].v;
+    for (Eigen::Index c = 0; c < 4; ++c)
+      x.segment<2>(2 * c) << at[std::size_t(c)].u, at[std::size_t(c)].v;
     sum += x;
     squares += x.cwiseProduct(x);
     claimed += found->corner_covariance.trace() / 8 / kRuns;
