@@ -28,7 +28,7 @@ std::optional<double> figure(const LabRun& run, const std::string& name) {
 }
 
 std::string end_words(const LabRun& run) {
-  const std::string words = spaced(name(run.end));
+  std::string words = spaced(name(run.end));
   if (run.end != RunEnd::Refused || run.refusal == LawRefusal::None) return words;
   return words + ": " + spaced(name(run.refusal));
 }

@@ -14,7 +14,8 @@ namespace kestrel {
 /// `translation_m` with `theta_u_deg: [x, y, z]`, the rotation's axis times its angle;
 /// ViSP's pose (vpPoseVector's YAML): `rows: 6`, `cols: 1`, `data: [tx, ty, tz, tux, tuy, tuz]`.
 /// The rotation's columns are the axes of From seen in To. A matrix within 1e-3 of a rotation is
-/// replaced by the nearest one, one to rounding kept as it is; anything else throws FileError that says how far off it is.
+/// replaced by the nearest one, one to rounding kept as it is; anything else throws FileError that
+/// says how far off it is.
 template <class To, class From>
 Transform<To, From> read_pose(const Section& section);
 
