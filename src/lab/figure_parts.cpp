@@ -1,6 +1,7 @@
 #include "figure_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kestrel/lab/trace_thinning.hpp"
 
@@ -42,7 +43,10 @@ Series over_time(const DrawnRun& drawn, const std::string& column, double until_
     if (i == 0) break;
     const double share = (until_s - times[i - 1]) / (times[i] - times[i - 1]);
     series.x.push_back(until_s);
-    series.y.push_back(values[i - 1] + share * (values[i] - values[i - 1]));
+    // An error decays exponentially: between two rows it is a straight line on its own axis.
+    const bool decays = column == "error_norm" && values[i - 1] > 0 && values[i] > 0;
+    series.y.push_back(decays ? values[i - 1] * std::pow(values[i] / values[i - 1], share)
+                              : values[i - 1] + share * (values[i] - values[i - 1]));
     break;
   }
   return series;

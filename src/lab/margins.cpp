@@ -30,13 +30,15 @@ bool keeps_small_errors(CameraSetup setup, const MarginOptions& options) {
   setup.scenario = near_goal(setup.scenario, options.offset_share);
   std::array<double, 3> largest{};
   double first = 0;
+  bool answered = true;  // a law that refuses holds nothing
   const RunResult result = run_camera(setup, [&](const RunStep& step) {
+    answered = answered && step.refusal == LawRefusal::None;
     const double e = step.error.norm();
     if (step.step == 0) first = e;
     double& third = largest[std::size_t(3 * (step.step / double(setup.conditions.steps)))];
     third = std::max(third, e);
   });
-  if (result.steps < setup.conditions.steps) return false;  // collided or flew away
+  if (!answered || result.steps < setup.conditions.steps) return false;  // or it flew away
   if (*std::max_element(largest.begin(), largest.end()) > kLarge * first) return false;
   return largest[2] <= kGone * first || largest[2] <= (1 + kStillNoGrowth) * largest[1];
 }

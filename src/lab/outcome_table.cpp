@@ -61,6 +61,7 @@ std::vector<ReportTable> outcome_tables(const std::vector<MadeRun>& runs) {
     modified[at].emplace_back(run.modifier, &run);
   }
   std::vector<ReportTable> tables;
+  tables.reserve(plain.size() + scenarios.size());
   for (const auto& [kind, named] : plain) {
     tables.push_back(crossed(kind == RunKind::Camera
                                  ? "camera: step from which |e| stays small, or how it ended"

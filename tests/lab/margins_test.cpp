@@ -48,6 +48,14 @@ TEST(Margins, OfAScenarioEndWhereItsRunFails) {
   EXPECT_EQ(gain_margin(setup, options), 10);  // stable at the largest
 }
 
+// An error that nobody touches does not grow; that is no stability.
+TEST(Margins, ALawThatRefusesHasNone) {
+  CameraSetup setup = test::benchmark_setup("S1_small", Law::Des, 1);
+  setup.law.max_condition = 1;
+  EXPECT_FALSE(gain_margin(setup, quick()));
+  EXPECT_FALSE(delay_margin(setup, quick()));
+}
+
 TEST(Margins, CheckNamesWhatIsOutOfRange) {
   MarginOptions options;
   options.largest_gain_per_s = 0;
