@@ -1,6 +1,8 @@
 #include "compare_run.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -62,6 +64,43 @@ Table table_of(const std::vector<LawReplay>& replays, const LogFile& log) {
   return table;
 }
 
+/// The fastest translation a law wanted, m/s.
+double largest_speed_m_s(const LawReplay& replay) {
+  double largest = 0;
+  for (const ReplayedFrame& f : replay.frames) {
+    if (f.wanted) largest = std::max(largest, f.wanted->vector().head<3>().norm());
+  }
+  return largest;
+}
+
+double largest_speed_m_s(const LogFile& log) {
+  double largest = 0;
+  for (const LogRow& row : log.rows) {
+    if (!row.servo || !row.decision) continue;
+    largest = std::max(largest, row.decision->wanted.vector().head<3>().norm());
+  }
+  return largest;
+}
+
+/// What may be seen beside what was flown: a law several times as fast would flatten all others.
+struct Drawn {
+  std::vector<LawReplay> replays;
+  std::string left_out;  // names
+};
+
+Drawn drawn(const std::vector<LawReplay>& replays, const LogFile& log) {
+  constexpr double kFaster = 3;
+  Drawn result;
+  for (const LawReplay& replay : replays) {
+    if (largest_speed_m_s(replay) <= kFaster * largest_speed_m_s(log)) {
+      result.replays.push_back(replay);
+    } else {
+      result.left_out += (result.left_out.empty() ? "" : ", ") + std::string(name(replay.law));
+    }
+  }
+  return result;
+}
+
 /// One velocity, all laws and what was flown.
 std::string figure(const std::vector<LawReplay>& replays, const LogFile& log, int axis,
                    const char* label) {
@@ -70,6 +109,7 @@ std::string figure(const std::vector<LawReplay>& replays, const LogFile& log, in
   plot.x_label = "time (s)";
   plot.y_label = label;
   plot.names = Plot::Names::LineEnds;
+  plot.height_px = std::max(300., 80 + 13. * double(replays.size()));  // a line for each name
   Series flown{"flown", {}, {}};
   for (const LogRow& row : log.rows) {
     flown.x.push_back(row.stamp_s);
@@ -101,8 +141,14 @@ Report page(const std::vector<LawReplay>& replays, const LogFile& log, const Tab
   section.title = "Commands";
   constexpr std::array<const char*, 4> kLabels{"forward (m/s)", "right (m/s)", "down (m/s)",
                                                "yaw rate (rad/s)"};
+  const Drawn shown_laws = drawn(replays, log);
   for (int axis = 0; axis < 4; ++axis) {
-    section.figures.push_back(figure(replays, log, axis, kLabels[std::size_t(axis)]));
+    section.figures.push_back(figure(shown_laws.replays, log, axis, kLabels[std::size_t(axis)]));
+  }
+  if (!shown_laws.left_out.empty()) {
+    section.text =
+        "Not drawn, since they wanted more than three times the speed of what was flown: " +
+        shown_laws.left_out + '.';
   }
   ReportTable shown = readable(table);
   shown.caption = "Difference from the law that flew, over the frames in which both answered";
