@@ -34,7 +34,7 @@ const std::map<std::string, Names> kMayInclude = {
 /// An include that starts like this -> layers or files (below src/ or include/kestrel/) that may
 /// have it.
 const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
-    {"visp3/", {"servo", "app/display_module"}},
+    {"visp3/", {"servo", "app/display_module", "app/plot_module"}},
     {"yaml-cpp/", {"io/yaml_tree"}},
     {"pugixml.hpp", {"io/xml_file"}},
     {"CLI/", {"app"}},

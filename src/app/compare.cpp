@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <thread>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "compare_folder.hpp"
 #include "compare_run.hpp"
 #include "interrupt.hpp"
+#include "live_plot.hpp"
 #include "progress.hpp"
 #include "recorded_run.hpp"
 #include "this_program.hpp"
@@ -28,9 +30,41 @@ std::string time_left(const LabProgress& now, double elapsed_s) {
                      : fmt::format("{:.0f} min left", std::ceil(left_s / 60));
 }
 
+/// The laws of the runs on scenarios, each once: the middle of "scenario/law/modifier".
+std::vector<std::string> laws_of(const std::vector<PlannedRun>& planned) {
+  std::vector<std::string> laws;
+  for (const PlannedRun& run : planned) {
+    const std::string& id = run.job.id;
+    const auto from = id.find('/');
+    const std::string scenario = id.substr(0, from);
+    const bool traced = scenario != "basin" && scenario != "map" && scenario != "margin";
+    if (from == std::string::npos || !traced) continue;
+    const std::string law = id.substr(from + 1, id.find('/', from + 1) - from - 1);
+    if (std::find(laws.begin(), laws.end(), law) == laws.end()) laws.push_back(law);
+  }
+  return laws;
+}
+
+/// The jobs, each of which draws what it has made.
+std::vector<LabJob> drawn(std::vector<LabJob> jobs, LivePlot& plot) {
+  for (LabJob& job : jobs) {
+    job.run = [make = std::move(job.run), &plot] {
+      LabRun run = make();
+      plot.draw(run);
+      return run;
+    };
+  }
+  return jobs;
+}
+
+/// One with a window: it has one thread.
+int jobs_at_a_time(const CompareArguments& a) {
+  if (a.plotted == Plotted::Live) return 1;
+  return a.jobs > 0 ? a.jobs : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
 LabOutcome run_plan(const std::vector<LabJob>& jobs, const CompareArguments& a,
                     const std::filesystem::path& folder) {
-  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
   std::size_t planned = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) planned += a.shard.holds(i);
   Progress progress(std::int64_t(planned), "run");
@@ -39,7 +73,7 @@ LabOutcome run_plan(const std::vector<LabJob>& jobs, const CompareArguments& a,
                          progress.step(std::int64_t(now.finished),
                                        time_left(now, monotonic_s() - start_s));
                        }};
-  return run_jobs(jobs, {folder, a.jobs > 0 ? a.jobs : cores, a.shard, a.earlier}, hooks);
+  return run_jobs(jobs, {folder, jobs_at_a_time(a), a.shard, a.earlier}, hooks);
 }
 
 void tell(const LabOutcome& outcome, const CompareArguments& a) {
@@ -69,7 +103,10 @@ int run(const CompareArguments& a) {
   const LabPlan wanted = load_plan(a.plan);
   const LabPlan plan = claim_folder(folder, wanted, plan_text(wanted));
   const std::vector<PlannedRun> planned = planned_runs(plan, this_program(), thread_cpu_s);
-  LabOutcome outcome = run_plan(jobs_of(planned), a, folder);
+  std::unique_ptr<LivePlot> plot;
+  if (a.plotted == Plotted::Live) plot = std::make_unique<LivePlot>(laws_of(planned));
+  const std::vector<LabJob> jobs = plot ? drawn(jobs_of(planned), *plot) : jobs_of(planned);
+  LabOutcome outcome = run_plan(jobs, a, folder);
   tell(outcome, a);
   const std::vector<MadeRun> made = made_runs(planned, std::move(outcome.runs));
   write_results(folder, plan, made);

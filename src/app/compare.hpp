@@ -17,6 +17,9 @@ namespace kestrel::app {
 /// What stands on standard output.
 enum class Printed { Tables, Json };
 
+/// Whether the runs are drawn in a window while they are made.
+enum class Plotted { No, Live };
+
 /// What `compare` was asked to do.
 struct CompareArguments {
   std::filesystem::path plan;     // or a run folder
@@ -26,6 +29,7 @@ struct CompareArguments {
   int jobs = 0;                   // 0: as many as the machine has cores
   Shard shard{};
   Earlier earlier = Earlier::Used;
+  Plotted plotted = Plotted::No;
   Printed printed = Printed::Tables;
 };
 

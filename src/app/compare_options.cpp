@@ -54,6 +54,10 @@ void add_compare(CLI::App& app, const std::shared_ptr<CompareArguments>& a) {
   verb->add_flag_callback(
       "--fresh", [a] { a->earlier = Earlier::Redone; }, "Make every run again (default: continue)");
   verb->add_flag_callback(
+      "--plot", [a] { a->plotted = Plotted::Live; },
+      "Draw each run in a window (ViSP's vpPlot) as soon as it is made, one run at a time "
+      "(default: no window)");
+  verb->add_flag_callback(
       "--json", [a] { a->printed = Printed::Json; },
       "Print results.json on standard output (default: tables)");
   verb->footer(

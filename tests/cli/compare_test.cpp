@@ -1,5 +1,6 @@
 // The verbs `compare`, `merge` and `laws` as their users meet them.
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -105,6 +106,26 @@ TEST_F(Compare, NeitherThreadsNorShardsChangeAByte) {
   EXPECT_EQ(rest.exit_code, 0);
   EXPECT_SAYS(rest.err, "runs were finished before");
   expect_same("one", "part");
+}
+
+// The recipe of tasks/compare.md, with GNU parallel as the scheduler.
+TEST_F(Compare, GnuParallelRunsTheShards) {
+  if (std::system("parallel --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
+  ASSERT_EQ(compare({"plan.yaml", "--output", "one"}).exit_code, 0);
+  const std::string command = "cd '" + folder_.path().string() +
+                              "' && parallel '" KESTREL_PROGRAM
+                              " compare plan.yaml --shard {}/2 --output s{} > log{} 2>&1' ::: 1 2";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const Outcome merged = kestrel({"merge", "all", "s1", "s2"}, folder_.path());
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  expect_same("one", "all");
+}
+
+TEST_F(Compare, PlotWantsADisplay) {
+  Program program({"compare", "plan.yaml", "--plot"}, folder_.path(), {"DISPLAY="});
+  const Outcome refused = program.wait();
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_SAYS(refused.err, "DISPLAY is not set");
 }
 
 TEST_F(Compare, CtrlCKeepsWhatIsFinishedAndTheNextStartGoesOn) {

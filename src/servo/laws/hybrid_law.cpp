@@ -30,13 +30,13 @@ struct Hybrid {
 };
 
 Hybrid hybrid(const Eigen::Vector3d& now, const Eigen::Vector3d& goal,
-              const Eigen::Matrix3d& goal_R_camera) {
+              const Eigen::Matrix3d& R_goal_camera) {
   Hybrid h;
   h.x = now.x() / now.z();
   h.y = now.y() / now.z();
   h.z_m = now.z();
   h.error << h.x - goal.x() / goal.z(), h.y - goal.y() / goal.z(), std::log(now.z() / goal.z());
-  h.theta_u = rotation_vector(goal_R_camera);
+  h.theta_u = rotation_vector(R_goal_camera);
   return h;
 }
 

@@ -45,10 +45,10 @@ void learn_secant(LawState& state, const Eigen::VectorXd& ds) {
 /// (Piepmeier, McMurray & Lipkin 2004).
 void learn_recursively(LawState& state, const Eigen::VectorXd& ds, double forgetting) {
   const Vector6d& dx = state.motion;
-  const Vector6d Pdx = state.covariance * dx;
-  const Vector6d weight = Pdx / (forgetting + dx.dot(Pdx));
+  const Vector6d P_dx = state.covariance * dx;
+  const Vector6d weight = P_dx / (forgetting + dx.dot(P_dx));
   state.jacobian += (ds - state.jacobian * dx) * weight.transpose();
-  Matrix6d P = state.covariance - weight * Pdx.transpose();
+  Matrix6d P = state.covariance - weight * P_dx.transpose();
   if (P.trace() < kLargestCovariance) P /= forgetting;
   state.covariance = (P + P.transpose()) / 2;  // rounding must not make it lopsided
 }
