@@ -38,7 +38,7 @@ std::optional<ReceivedCommand> ReceiverState::accept(const mavlink::Packet& pack
   if (const auto* setpoint = std::get_if<mavlink::SetPositionTarget>(&packet.message)) {
     return accept_setpoint(*setpoint, packet.envelope);
   }
-  ++counts_.heartbeats;
+  if (std::holds_alternative<mavlink::Heartbeat>(packet.message)) ++counts_.heartbeats;
   return std::nullopt;
 }
 

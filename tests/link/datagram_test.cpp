@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kestrel/link/message.hpp"
+#include "kestrel/link/frame.hpp"
 
 #include "samples.hpp"
 #include "support/random.hpp"

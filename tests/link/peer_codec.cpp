@@ -19,12 +19,9 @@ using namespace kestrel::mavlink;
 
 std::string line_of(const Packet& packet) {
   std::ostringstream line;
-  const bool heartbeat = std::holds_alternative<Heartbeat>(packet.message);
-  line << (heartbeat ? "HEARTBEAT" : "SET_POSITION_TARGET_LOCAL_NED");
-  line << ' ' << int(packet.envelope.system_id) << ' ' << int(packet.envelope.component_id) << ' '
-       << int(packet.envelope.sequence);
-  for (const std::uint32_t field : test::fields(packet.message)) line << ' ' << field;
-  line << ' ' << std::hex << std::setfill('0');
+  line << info_of(packet.message).name << ' ' << int(packet.envelope.system_id) << ' '
+       << int(packet.envelope.component_id) << ' ' << int(packet.envelope.sequence) << ' '
+       << std::hex << std::setfill('0');
   for (const std::uint8_t byte : test::copy(encode(packet.message, packet.envelope).bytes())) {
     line << std::setw(2) << int(byte);
   }
@@ -43,9 +40,7 @@ test::Buffer frame_of(const std::string& line) {
 void write(int count) {
   test::Random random("peer");
   for (int i = 0; i < count; ++i) {
-    const Message message = i % 2 == 0 ? Message(test::random_heartbeat(random))
-                                       : Message(test::random_setpoint(random));
-    std::cout << line_of({test::random_envelope(random), message}) << '\n';
+    std::cout << line_of({test::random_envelope(random), test::random_message(random)}) << '\n';
   }
 }
 

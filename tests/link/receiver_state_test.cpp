@@ -113,7 +113,7 @@ TEST(ReceiverState, CountsWhatItCannotReadByReason) {
   const Buffer whole = framed(setpoint(1), 0);
   const Buffer half(whole.begin(), whole.begin() + 30);
   for (const Buffer& datagram :
-       {Buffer{}, Buffer{1, 2, 3}, damaged, half, test::hand_made_frame(30, {1}, 39),
+       {Buffer{}, Buffer{1, 2, 3}, damaged, half, test::hand_made_frame(86, {1}, 39),
         test::hand_made_frame(84, {1}, 143, 2)}) {
     EXPECT_TRUE(state.take(test::view(datagram), kPeer).empty());
   }

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <variant>
 #include <vector>
 
-#include "kestrel/link/message.hpp"
+#include "kestrel/link/frame.hpp"
 
 #include "support/random.hpp"
 
@@ -45,29 +46,42 @@ inline float random_float(Random& random) {
   return float_of((bits & 0x7F800000) == 0x7F800000 ? bits & 0xBFFFFFFF : bits);
 }
 
-inline mavlink::Heartbeat random_heartbeat(Random& random) {
-  return {random_bits(random), random_byte(random), random_byte(random),
-          random_byte(random), random_byte(random), random_byte(random)};
+/// A payload of the message: floats finite, else any bytes; half of them end in zeros.
+inline Buffer random_payload(const mavlink::MessageInfo& info, Random& random) {
+  Buffer payload(info.longest);
+  for (const mavlink::FieldInfo& field : info) {
+    for (std::size_t i = 0; i < field.size(); ++i) payload[field.offset + i] = random_byte(random);
+    for (std::size_t i = 0; field.type == mavlink::FieldType::Float && i < field.size(); i += 4) {
+      const std::uint32_t bits = bits_of(random_float(random));
+      for (std::size_t k = 0; k < 4; ++k) {
+        payload[field.offset + i + k] = std::uint8_t(bits >> (8 * k));
+      }
+    }
+  }
+  if (random.integer(0, 1) == 0) {
+    const auto kept = std::size_t(random.integer(0, int(payload.size())));
+    std::fill(payload.begin() + std::ptrdiff_t(kept), payload.end(), std::uint8_t{0});
+  }
+  return payload;
+}
+
+inline mavlink::Message random_message(const mavlink::MessageInfo& info, Random& random) {
+  return *mavlink::message_of(info.id, view(random_payload(info, random)));
+}
+
+template <class M>
+M random_message_of(Random& random) {
+  return std::get<M>(random_message(mavlink::info_of(M{}), random));
 }
 
 inline mavlink::SetPositionTarget random_setpoint(Random& random) {
-  mavlink::SetPositionTarget s;
-  s.time_boot_ms = random_bits(random);
-  for (float* value : {&s.x_m, &s.y_m, &s.z_m, &s.vx_m_s, &s.vy_m_s, &s.vz_m_s, &s.ax_m_s2,
-                       &s.ay_m_s2, &s.az_m_s2, &s.yaw_rad, &s.yaw_rate_rad_s}) {
-    *value = random_float(random);
-  }
-  s.type_mask = std::uint16_t(random_bits(random));
-  s.target_system = random_byte(random);
-  s.target_component = random_byte(random);
-  // Half of them end in zeros, which are trimmed.
-  s.coordinate_frame = random.integer(0, 1) == 0 ? std::uint8_t{0} : random_byte(random);
-  return s;
+  return random_message_of<mavlink::SetPositionTarget>(random);
 }
 
+/// Any message that Kestrel knows.
 inline mavlink::Message random_message(Random& random) {
-  if (random.integer(0, 1) == 0) return random_heartbeat(random);
-  return random_setpoint(random);
+  const mavlink::MessageInfos all = mavlink::message_infos();
+  return random_message(all.begin()[random.integer(0, int(all.count) - 1)], random);
 }
 
 inline mavlink::Envelope random_envelope(Random& random) {
@@ -78,17 +92,11 @@ inline Buffer random_frame(Random& random) {
   return copy(mavlink::encode(random_message(random), random_envelope(random)).bytes());
 }
 
-/// Every field as a number, floats as their bits, in the order of the wire.
-inline std::vector<std::uint32_t> fields(const mavlink::Message& message) {
-  if (const auto* h = std::get_if<mavlink::Heartbeat>(&message)) {
-    return {h->custom_mode, h->type,          h->autopilot,
-            h->base_mode,   h->system_status, h->mavlink_version};
-  }
-  const auto& s = std::get<mavlink::SetPositionTarget>(message);
-  return {s.time_boot_ms,     bits_of(s.x_m),     bits_of(s.y_m),     bits_of(s.z_m),
-          bits_of(s.vx_m_s),  bits_of(s.vy_m_s),  bits_of(s.vz_m_s),  bits_of(s.ax_m_s2),
-          bits_of(s.ay_m_s2), bits_of(s.az_m_s2), bits_of(s.yaw_rad), bits_of(s.yaw_rate_rad_s),
-          s.type_mask,        s.target_system,    s.target_component, s.coordinate_frame};
+/// Every field's bytes, in the order of the wire, zeros not trimmed.
+inline Buffer fields(const mavlink::Message& message) {
+  Buffer payload = copy(mavlink::payload_of(message).bytes());
+  payload.resize(mavlink::info_of(message).longest);
+  return payload;
 }
 
 /// A frame put together by hand, with a checksum of its own: one shift a bit.

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "kestrel/link/address.hpp"
-#include "kestrel/link/message.hpp"
+#include "kestrel/link/frame.hpp"
 #include "kestrel/link/setpoint.hpp"
 #include "kestrel/link/socket.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"

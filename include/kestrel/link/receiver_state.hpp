@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kestrel/link/address.hpp"
-#include "kestrel/link/message.hpp"
+#include "kestrel/link/frame.hpp"
 #include "kestrel/link/sequence.hpp"
 #include "kestrel/link/setpoint.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"
