@@ -6,13 +6,19 @@
 //   peer_codec read          reads frames, one a line, and for each writes a line like that: what
 //   it
 //                            decodes from the frame, and the frame it encodes from that
+// With a key of 64 hexadecimal digits as a last argument, frames are written and read signed; the
+// line of a frame whose signature is not right is "forged".
 // A field's word: its elements in decimal, joined by commas; floats as their bits, characters as
 // bytes. Frames are in hexadecimal.
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
+
+#include "kestrel/link/signing.hpp"
 
 #include "samples.hpp"
 #include "support/random.hpp"
@@ -55,14 +61,14 @@ std::string word_of(const FieldInfo& field, const test::Buffer& payload) {
   return word;
 }
 
-std::string line_of(const Packet& packet) {
+std::string line_of(const Packet& packet, Bytes frame) {
   const MessageInfo& info = info_of(packet.message);
   const test::Buffer payload = test::fields(packet.message);
   std::ostringstream line;
   line << info.name << ' ' << int(packet.envelope.system_id) << ' '
        << int(packet.envelope.component_id) << ' ' << int(packet.envelope.sequence) << ' ';
   for (const FieldInfo& field : info) line << word_of(field, payload) << ' ';
-  line << hex(encode(packet.message, packet.envelope).bytes());
+  line << hex(frame);
   return line.str();
 }
 
@@ -78,26 +84,49 @@ void tables() {
   }
 }
 
-void write(int count) {
+std::string line_of(const Packet& packet) {
+  return line_of(packet, encode(packet.message, packet.envelope).bytes());
+}
+
+std::string line_of(const Packet& packet, const SigningStamp& stamp, const SigningKey& key) {
+  return line_of(packet, signed_frame(packet.message, packet.envelope, stamp, key).bytes());
+}
+
+using Key = std::optional<SigningKey>;
+
+void write(int count, const Key& key) {
   test::Random random("peer");
   for (const MessageInfo& info : message_infos()) {
     for (int i = 0; i < count; ++i) {
-      const Message message = test::random_message(info, random);
-      std::cout << line_of({test::random_envelope(random), message}) << '\n';
+      const Packet packet{test::random_envelope(random), test::random_message(info, random)};
+      const std::uint64_t high = std::uint64_t(random.integer(0, 0xFFFF)) << 32;
+      const SigningStamp stamp{test::random_byte(random), high | test::random_bits(random)};
+      std::cout << (key ? line_of(packet, stamp, *key) : line_of(packet)) << '\n';
     }
   }
 }
 
-void read() {
+std::string line_of(Bytes frame, const Key& key) {
+  const Decoded decoded = decode(frame);
+  const auto* packet = std::get_if<Packet>(&decoded.content);
+  if (packet == nullptr) return name(std::get<Refusal>(decoded.content));
+  if (!key) return line_of(*packet);
+  const FrameView view{frame, nullptr};
+  return signature_matches(view, *key) ? line_of(*packet, signing_stamp(view), *key) : "forged";
+}
+
+void read(const Key& key) {
   for (std::string line; std::getline(std::cin, line);) {
     const test::Buffer frame = bytes_of(line);
-    const Decoded decoded = decode(test::view(frame));
-    if (const auto* packet = std::get_if<Packet>(&decoded.content)) {
-      std::cout << line_of(*packet) << '\n';
-    } else {
-      std::cout << name(std::get<Refusal>(decoded.content)) << '\n';
-    }
+    std::cout << line_of(test::view(frame), key) << '\n';
   }
+}
+
+Key key_of(const char* hex_text) {
+  SigningKey::Secret secret{};
+  const test::Buffer bytes = bytes_of(hex_text);
+  std::copy_n(bytes.begin(), std::min(bytes.size(), secret.size()), secret.begin());
+  return SigningKey(secret);
 }
 
 }  // namespace
@@ -106,10 +135,10 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "";
   if (verb == "tables" && argc == 2) {
     tables();
-  } else if (verb == "write" && argc == 3) {
-    write(std::atoi(argv[2]));
-  } else if (verb == "read" && argc == 2) {
-    read();
+  } else if (verb == "write" && (argc == 3 || argc == 4)) {
+    write(std::atoi(argv[2]), argc == 4 ? key_of(argv[3]) : std::nullopt);
+  } else if (verb == "read" && (argc == 2 || argc == 3)) {
+    read(argc == 3 ? key_of(argv[2]) : std::nullopt);
   } else {
     return 2;
   }

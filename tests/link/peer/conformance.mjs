@@ -12,7 +12,8 @@
 import { execFileSync } from 'node:child_process';
 import assert from 'node:assert/strict';
 import {
-  decoded, definition, encoded, lineOf, parsed, random, wordsOfTexts, zeros,
+  decoded, definition, encoded, lineOf, parsed, random, randomByte, signatureOf, signed,
+  wordsOfTexts, zeros,
 } from './lines.mjs';
 
 const codec = process.argv[2];
@@ -87,6 +88,51 @@ function emptyPayloads(names) {
   }
 }
 
+const SIGNED = 1; // incompat flag
+const SIGNATURE = 13;
+const KEY = Buffer.from(Array.from({ length: 32 }, randomByte));
+
+/// Kestrel signed the frame: to the peer it is genuine, and it signs with the same bytes.
+function compareSigned(line) {
+  const ours = parsed(line);
+  const theirs = decoded(ours.frame, SIGNATURE);
+  assert.equal(theirs.flags, SIGNED);
+  assert.deepEqual(theirs.words, wordsOfTexts(ours.name, ours.words), line);
+  const signature = signatureOf(ours.frame);
+  assert.ok(signature.matches(KEY), line);
+  const bare = encoded(ours.name, ours.envelope, ours.words, SIGNED);
+  if (bare[1] === 0) return;
+  const written = signed(bare, signature.linkId, signature.timestamp, KEY);
+  assert.equal(written.toString('hex'), ours.frame.toString('hex'), line);
+}
+
+/// The peer signed: to Kestrel the frames are genuine, and it signs with the same bytes; with any
+/// bit of the signature flipped they are forged.
+function peerSigns(names) {
+  const messages = names.flatMap((name) => Array.from({ length: EACH }, () => random(name)));
+  const frames = messages.map(({ name, envelope, words }) => signed(
+    encoded(name, envelope, words, SIGNED), randomByte(),
+    Array.from({ length: 6 }, randomByte).reduce((sum, byte) => 256 * sum + byte, 0), KEY));
+  const read = codecLines(['read', KEY.toString('hex')], frames.map((frame) => frame.toString('hex')));
+  read.forEach((line, i) => {
+    const same = frames[i][1] === 0 ? parsed(line).frame : frames[i];
+    assert.equal(line, lineOf(messages[i], same));
+  });
+  for (const frame of frames) {
+    frame[frame.length - 1 - randomByte() % SIGNATURE] ^= 1 << (randomByte() % 8);
+  }
+  const forged = codecLines(['read', KEY.toString('hex')],
+    frames.map((frame) => frame.toString('hex')));
+  assert.deepEqual(forged, frames.map(() => 'forged'));
+}
+
+function withSignatures(names) {
+  const lines = codecLines(['write', String(EACH), KEY.toString('hex')]);
+  assert.equal(lines.length, EACH * names.length);
+  lines.forEach(compareSigned);
+  peerSigns(names);
+}
+
 /// The comparison itself can fail: one bit of any field of any message is noticed.
 function canFail(lines, names) {
   for (const name of names) {
@@ -103,5 +149,7 @@ const names = sameTables();
 const lines = kestrelWrites(names);
 peerWrites(names);
 emptyPayloads(names);
+withSignatures(names);
 canFail(lines, names);
-console.log(`${names.length} messages, ${EACH} frames of each, each way: every field and every byte agree.`);
+console.log(`${names.length} messages, ${EACH} frames of each, each way, signed and unsigned:`
+  + ' every field and every byte agree.');

@@ -3,7 +3,9 @@
 // characters as bytes), frame in hexadecimal.
 import mavlink from 'node-mavlink';
 
-const { MavLinkProtocolV2, MSG_ID_MAGIC_NUMBER, common, minimal, standard, x25crc } = mavlink;
+const {
+  MavLinkPacketSignature, MavLinkProtocolV2, MSG_ID_MAGIC_NUMBER, common, minimal, standard, x25crc,
+} = mavlink;
 
 const HEADER = 10;
 const CRC = 2;
@@ -88,6 +90,21 @@ export function decoded(frame, trailer = 0) {
     envelope: [header.sysid, header.compid, header.seq],
     words: fieldsOf(name).map((field) => wordOf(field, message[field.name])),
   };
+}
+
+/// The signature of a frame, in the peer's hands.
+export function signatureOf(frame) {
+  return new MavLinkPacketSignature(frame);
+}
+
+/// An unsigned frame of `encoded` with the flag, signed by the peer. It knows times to a millisecond;
+/// here any is wanted.
+export function signed(frame, linkId, timestamp, key) {
+  const result = new MavLinkProtocolV2().sign(frame, linkId, key);
+  const signature = signatureOf(result);
+  signature.timestamp = timestamp;
+  signature.signature = signature.calculate(key);
+  return result;
 }
 
 export function parsed(line) {
