@@ -69,7 +69,8 @@ LabReport report_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
     report.scenes.push_back(scene_of(scenario, plan.camera, plan.conditions.limits));
   }
   for (const HelicopterScenario& scenario : plan.helicopter.scenarios) {
-    report.scenes.push_back(scene_of(scenario, LabCamera{}, HelicopterConditions{}.limits));
+    report.scenes.push_back(
+        scene_of(scenario, plan.helicopter.camera, plan.helicopter.conditions.limits));
   }
   for (const MadeRun* made : of_part(runs, LabPart::Table)) report.runs.push_back(made->run);
   report.basins = basins_of(plan, runs);

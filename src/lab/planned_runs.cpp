@@ -1,6 +1,5 @@
 #include "kestrel/lab/planned_runs.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "kestrel/lab/camera_experiment.hpp"
@@ -9,10 +8,6 @@
 
 namespace kestrel {
 namespace {
-
-bool applies(const std::vector<std::string>& names, const std::string& name) {
-  return names.empty() || std::count(names.begin(), names.end(), name) > 0;
-}
 
 /// The run of a margin: its one figure, and whether there is one.
 LabRun margin_run(const CameraExperiment& experiment, const std::string& what) {
@@ -42,19 +37,16 @@ class Expansion {
     for (const Scenario& scenario : plan_.scenarios) {
       add_laws(scenario, {});
       for (const PlannedModifier& modifier : plan_.modifiers) {
-        if (applies(modifier.scenarios, scenario.name)) add_laws(scenario, modifier);
+        add_laws(scenario, modifier);
       }
     }
   }
 
   void add_helicopter() {
     for (const HelicopterScenario& scenario : plan_.helicopter.scenarios) {
-      std::vector<std::string> modifiers{""};
-      modifiers.insert(modifiers.end(), plan_.helicopter.modifiers.begin(),
-                       plan_.helicopter.modifiers.end());
-      for (const std::string& modifier : modifiers) {
-        for (const std::string& label : plan_.helicopter.laws)
-          add_flight(scenario, label, modifier);
+      add_flights(scenario, {});
+      for (const PlannedModifier& modifier : plan_.helicopter.modifiers) {
+        add_flights(scenario, modifier);
       }
     }
   }
@@ -124,19 +116,20 @@ class Expansion {
   void add_laws(const Scenario& scenario, const PlannedModifier& modifier) {
     const Conditions conditions = with_modifier(plan_.conditions, modifier);
     for (const PlannedLaw& law : plan_.laws) {
-      if (!applies(modifier.laws, law.label)) continue;
+      if (!applies(modifier, scenario.name, law.label)) continue;
       const auto experiment = of({scenario.name, law.label, modifier.name, {}, plan_.trace_every},
                                  scenario, law, conditions);
       add({LabPart::Table, 0, law.label, 0, 0, job(experiment.id(), experiment)});
     }
   }
 
-  void add_flight(const HelicopterScenario& scenario, const std::string& label,
-                  const std::string& modifier) {
-    const auto [variant, law] = helicopter_law_labelled(label);
-    HelicopterExperiment experiment = helicopter_experiment(scenario, variant, law, modifier);
-    experiment.trace_every = plan_.trace_every;
-    add({LabPart::Table, 0, label, 0, 0, job(experiment.id(), experiment)});
+  void add_flights(const HelicopterScenario& scenario, const PlannedModifier& modifier) {
+    for (const PlannedHelicopterLaw& law : plan_.helicopter.laws) {
+      if (!applies(modifier, scenario.name, law.label)) continue;
+      HelicopterExperiment experiment = planned_flight(plan_.helicopter, scenario, law, modifier);
+      experiment.trace_every = plan_.trace_every;
+      add({LabPart::Table, 0, law.label, 0, 0, job(experiment.id(), experiment)});
+    }
   }
 
   void add_cell(std::size_t i, const PlannedLaw& law, std::size_t x, std::size_t y) {
