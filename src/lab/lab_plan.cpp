@@ -32,7 +32,7 @@ void require_once(std::set<std::string>& names, const std::string& name, const s
 
 void check_names(const LabPlan& plan) {
   std::set<std::string> laws;
-  std::set<std::string> scenarios{"map", "basin", "margin"};  // beginnings of other ids
+  std::set<std::string> scenarios{"map", "basin", "margin", "order"};  // beginnings of other ids
   std::set<std::string> modifiers;
   std::set<std::string> flown_laws;
   std::set<std::string> flown_modifiers;
@@ -81,6 +81,10 @@ void check_parts(const LabPlan& plan) {
   for (const PlannedMargin& margin : plan.margins) {
     scenario_named(plan, margin.scenario);
     laws_labelled(plan, margin.laws);
+  }
+  for (const PlannedOrder& order : plan.orders) {
+    scenario_named(plan, order.scenario);
+    laws_labelled(plan, order.laws);
   }
   plan.helicopter.check();
 }

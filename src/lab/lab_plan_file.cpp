@@ -100,6 +100,7 @@ LabPlan load_plan(const std::filesystem::path& file) {
   plan.basins = read_list<PlannedBasin>(
       root, "basins", [&](const Section& section) { return read_basin(section, plan); });
   plan.margins = read_list<PlannedMargin>(root, "margins", read_margin);
+  plan.orders = read_list<PlannedOrder>(root, "orders", read_order);
   if (const auto h = root.child_if("helicopter"))
     plan.helicopter = read_helicopter(*h, plan.camera);
   root.done();

@@ -108,4 +108,8 @@ PlannedMargin read_margin(const Section& section) {
           section.flag("delay", true)};
 }
 
+PlannedOrder read_order(const Section& section) {
+  return {section.text("scenario"), words_if(section, "laws")};
+}
+
 }  // namespace kestrel

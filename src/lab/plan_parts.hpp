@@ -46,6 +46,9 @@ PlannedBasin read_basin(const Section& section, const LabPlan& plan);
 /// {scenario, laws, gain, delay}.
 PlannedMargin read_margin(const Section& section);
 
+/// {scenario, laws}.
+PlannedOrder read_order(const Section& section);
+
 /// {scenarios, laws, camera, conditions, rules, modifiers}; without a camera of its own the plan's.
 PlannedHelicopter read_helicopter(const Section& section, const LabCamera& camera);
 

@@ -60,6 +60,18 @@ std::vector<LabMargin> margins_of(const std::vector<MadeRun>& runs) {
   return margins;
 }
 
+/// Of the slopes towards the screw motion.
+std::vector<LabOrder> orders_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
+  std::vector<LabOrder> orders;
+  for (const MadeRun* made : of_part(runs, LabPart::Order)) {
+    const LabRun& run = made->run;
+    if (run.metrics.empty() || run.metrics.front().first != "slope_to_screw") continue;
+    const std::string where = plan.orders.size() > 1 ? ", " + plan.orders[made->of].scenario : "";
+    orders.push_back({run.law + where, run.metrics.front().second});
+  }
+  return orders;
+}
+
 }  // namespace
 
 LabReport report_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
@@ -76,6 +88,7 @@ LabReport report_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   report.basins = basins_of(plan, runs);
   report.maps = maps_of(plan, runs);
   report.margins = margins_of(runs);
+  report.orders = orders_of(plan, runs);
   return report;
 }
 

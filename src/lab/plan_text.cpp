@@ -64,6 +64,10 @@ std::string text_of(const PlannedMargin& margin) {
          ", delay: " + (margin.delay ? "true" : "false") + "}";
 }
 
+std::string text_of(const PlannedOrder& order) {
+  return "{scenario: " + quoted(order.scenario) + laws_text(order.laws) + "}";
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -116,6 +120,7 @@ std::string plan_text(const LabPlan& plan) {
   text += block("maps", plan.maps, any);
   text += block("basins", plan.basins, any);
   text += block("margins", plan.margins, any);
+  text += block("orders", plan.orders, any);
   if (!plan.helicopter.laws.empty()) text += text_of(plan.helicopter);
   return text;
 }

@@ -5,6 +5,7 @@
 #include "kestrel/lab/camera_experiment.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
 #include "kestrel/lab/margins.hpp"
+#include "kestrel/lab/order_of_accuracy.hpp"
 
 namespace kestrel {
 namespace {
@@ -24,6 +25,20 @@ LabRun margin_run(const CameraExperiment& experiment, const std::string& what) {
   }
   run.end = limit ? RunEnd::Converged : RunEnd::Diverged;
   run.metrics = {{is_gain ? "gain_limit_per_s" : "delay_limit_frames", limit}};
+  return run;
+}
+
+/// The run of an order: its one figure, and whether there is one.
+LabRun order_run(const CameraExperiment& experiment, IdealTwist ideal) {
+  LabRun run;
+  run.scenario = experiment.scenario;
+  run.law = experiment.law;
+  run.modifier = experiment.modifier;
+  AccuracyOptions options;
+  options.ideal = ideal;
+  const std::optional<double> slope = order_of_accuracy(experiment.setup, options);
+  run.end = slope ? RunEnd::Converged : RunEnd::Refused;
+  run.metrics = {{"slope_to_" + experiment.modifier, slope}};
   return run;
 }
 
@@ -84,6 +99,15 @@ class Expansion {
       for (const PlannedLaw& law : laws_labelled(plan_, margin.laws)) {
         if (margin.gain) add_margin(i, law, "gain");
         if (margin.delay) add_margin(i, law, "delay");
+      }
+    }
+  }
+
+  void add_orders() {
+    for (std::size_t i = 0; i < plan_.orders.size(); ++i) {
+      for (const PlannedLaw& law : laws_labelled(plan_, plan_.orders[i].laws)) {
+        add_order(i, law, IdealTwist::Screw);
+        add_order(i, law, IdealTwist::StraightLine);
       }
     }
   }
@@ -159,6 +183,16 @@ class Expansion {
     add({LabPart::Margin, i, law.label, 0, 0, std::move(made)});
   }
 
+  void add_order(std::size_t i, const PlannedLaw& law, IdealTwist ideal) {
+    const Scenario& scenario = scenario_named(plan_, plan_.orders[i].scenario);
+    const std::string what = ideal == IdealTwist::Screw ? "screw" : "straight_line";
+    const auto experiment =
+        of({scenario.name, law.label, what, {}, 0}, scenario, law, plan_.conditions);
+    LabJob made = job("order/" + scenario.name + "/" + law.label + "/" + what, experiment);
+    made.run = [experiment, ideal] { return order_run(experiment, ideal); };
+    add({LabPart::Order, i, law.label, 0, 0, std::move(made)});
+  }
+
   const LabPlan& plan_;
   std::string program_;
   LabClock clock_;
@@ -176,6 +210,7 @@ std::vector<PlannedRun> planned_runs(const LabPlan& plan, const std::string& pro
   expansion.add_maps();
   expansion.add_basins();
   expansion.add_margins();
+  expansion.add_orders();
   return expansion.runs();
 }
 

@@ -177,6 +177,17 @@ TEST_F(PlanFile, ReadsEveryKeyOfTheHelicopter) {
   EXPECT_EQ(plan_text(again(plan)), plan_text(plan));
 }
 
+TEST_F(PlanFile, ReadsOrdersAndRefusesThoseOfNoLaw) {
+  const LabPlan plan = load(std::string(kLeast) + "orders: [{scenario: S0_tutorial}]\n");
+  ASSERT_EQ(plan.orders.size(), 1u);
+  EXPECT_EQ(plan.orders[0].scenario, "S0_tutorial");
+  EXPECT_EQ(plan_text(again(plan)), plan_text(plan));
+  EXPECT_THAT(fault(std::string(kLeast) + "orders: [{scenario: S0_tutorial, laws: [des]}]\n"),
+              HasSubstr("there is no law labelled des"));
+  EXPECT_THAT(fault(std::string(kLeast) + "orders: [{scenario: S1_small}]\n"),
+              HasSubstr("there is no scenario S1_small"));
+}
+
 TEST_F(PlanFile, TheHelicopterLooksThroughThePlansCameraUnlessItHasItsOwn) {
   EXPECT_EQ(load("camera: {focal_px: 500}\nhelicopter: {}\n").helicopter.camera.focal_px, 500);
   EXPECT_EQ(load("helicopter: {}\n").helicopter.camera.focal_px, LabCamera{}.focal_px);

@@ -48,8 +48,14 @@ struct PlannedMargin {
   bool delay = true;
 };
 
+/// Orders of accuracy (lab/order_of_accuracy) at a scenario's goal.
+struct PlannedOrder {
+  std::string scenario;
+  std::vector<std::string> laws;  // empty: all
+};
+
 /// All that a comparison runs: each law on each scenario, without and with the modifiers that
-/// apply there, and beside that maps, basins and margins.
+/// apply there, and beside that maps, basins, margins and orders of accuracy.
 struct LabPlan {
   std::string title;
   std::vector<PlannedLaw> laws;
@@ -62,6 +68,7 @@ struct LabPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedBasin> basins;
   std::vector<PlannedMargin> margins;
+  std::vector<PlannedOrder> orders;
   PlannedHelicopter helicopter{};
   /// Settled runs of maps and basins end when |e| has stayed below this; 0: they run all steps.
   double settled_error = 1e-5;
