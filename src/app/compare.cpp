@@ -30,17 +30,12 @@ std::string time_left(const LabProgress& now, double elapsed_s) {
                      : fmt::format("{:.0f} min left", std::ceil(left_s / 60));
 }
 
-/// The laws of the runs on scenarios, each once: the middle of "scenario/law/modifier".
+/// The laws of the runs on scenarios, each once.
 std::vector<std::string> laws_of(const std::vector<PlannedRun>& planned) {
   std::vector<std::string> laws;
   for (const PlannedRun& run : planned) {
-    const std::string& id = run.job.id;
-    const auto from = id.find('/');
-    const std::string scenario = id.substr(0, from);
-    const bool traced = scenario != "basin" && scenario != "map" && scenario != "margin";
-    if (from == std::string::npos || !traced) continue;
-    const std::string law = id.substr(from + 1, id.find('/', from + 1) - from - 1);
-    if (std::find(laws.begin(), laws.end(), law) == laws.end()) laws.push_back(law);
+    if (run.part != LabPart::Table) continue;
+    if (std::find(laws.begin(), laws.end(), run.law) == laws.end()) laws.push_back(run.law);
   }
   return laws;
 }

@@ -34,6 +34,7 @@ std::string tables_text(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   for (const ReportTable& table : outcome_tables(runs)) add(aligned(table));
   if (!plan.basins.empty()) add(aligned(readable(basin_table(plan, runs))));
   if (!plan.margins.empty()) add(aligned(readable(margin_table(plan, runs))));
+  if (!plan.orders.empty()) add(aligned(readable(order_table(plan, runs))));
   return text;
 }
 
@@ -48,6 +49,7 @@ std::string results_json(const LabPlan& plan, const std::vector<MadeRun>& runs) 
   }
   if (!plan.maps.empty()) text += "\n}";
   if (!plan.margins.empty()) text += ",\n\"margins\": " + json(margin_table(plan, runs), 1);
+  if (!plan.orders.empty()) text += ",\n\"orders\": " + json(order_table(plan, runs), 1);
   return text + "\n}\n";
 }
 
@@ -100,6 +102,7 @@ void write_results(const fs::path& folder, const LabPlan& plan, const std::vecto
     write_text(folder / "maps" / (plan.maps[i].name + ".csv"), csv(map_table(plan, i, runs)));
   }
   if (!plan.margins.empty()) write_text(folder / "margins.csv", csv(margin_table(plan, runs)));
+  if (!plan.orders.empty()) write_text(folder / "orders.csv", csv(order_table(plan, runs)));
 }
 
 void print_results(const LabPlan& plan, const std::vector<MadeRun>& runs, Printed printed) {

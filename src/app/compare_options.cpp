@@ -63,8 +63,8 @@ void add_compare(CLI::App& app, const std::shared_ptr<CompareArguments>& a) {
   verb->footer(
       "Numbers in the tables: the step from which |e| (normalised image plane) stays below the "
       "threshold; words: how the run ended.\nThe folder holds results.csv, results.json, "
-      "table.txt, runs/ (a trace each), basins.csv, maps/, margins.csv, timing.csv and "
-      "configuration.yaml. tasks/compare.md has every key of a plan and every file.");
+      "table.txt, runs/ (a trace each), basins.csv, maps/, margins.csv, orders.csv, timing.csv "
+      "and configuration.yaml. tasks/compare.md has every key of a plan and every file.");
 }
 
 void add_merge(CLI::App& app, const std::shared_ptr<MergeArguments>& a) {

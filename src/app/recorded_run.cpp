@@ -1,8 +1,9 @@
 #include "recorded_run.hpp"
 
-#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "kestrel/eval/spread.hpp"
 #include "kestrel/io/text_file.hpp"
 
 namespace kestrel::app {
@@ -42,10 +43,8 @@ double rate_hz(const LogFile& log) {
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
     periods_s.push_back(log.rows[i].stamp_s - log.rows[i - 1].stamp_s);
   }
-  if (periods_s.empty()) return 30;
-  const auto middle = periods_s.begin() + std::ptrdiff_t(periods_s.size() / 2);
-  std::nth_element(periods_s.begin(), middle, periods_s.end());
-  return *middle > 0 ? 1 / *middle : 30;
+  const auto spread = spread_of(std::move(periods_s));
+  return spread && spread->median > 0 ? 1 / spread->median : 30;
 }
 
 }  // namespace kestrel::app

@@ -9,6 +9,7 @@
 
 #include "kestrel/io/axis.hpp"
 
+#include "svg_free_words.hpp"
 #include "svg_parts.hpp"
 #include "svg_path.hpp"
 
@@ -91,24 +92,33 @@ std::string line(const SpacePlot& plot, std::size_t place, const Sheet& sheet) {
   return svg::path(series, place, sheet.x, sheet.y);
 }
 
-/// The axes, 34 px long in space; those that point at the eye look shorter.
-std::string frame(const SpacePlot& plot, const SpaceFrame& one, const Sheet& sheet) {
+/// The axes, 34 px long in space; those that point at the eye look shorter. Where frames fall on
+/// one another the words of the later one stand farther out.
+std::string frame(const SpacePlot& plot, const SpaceFrame& one, const Sheet& sheet,
+                  svg::FreeWords& words) {
   constexpr double kLength_px = 34;
   const Eigen::Vector2d origin = projected(plot.view, one.origin_m);
   if (!origin.allFinite() || !one.axes.allFinite()) return "";
-  const double x = sheet.x.at(origin.x());
-  const double y = sheet.y.at(origin.y());
+  const Eigen::Vector2d at(sheet.x.at(origin.x()), sheet.y.at(origin.y()));
   std::string out;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d along = projected(plot.view, one.axes.col(i).normalized()) * kLength_px;
-    const double tip_x = x + along.x();
-    const double tip_y = y - along.y();
-    out += svg::line(x, y, tip_x, tip_y, "kl c6");
-    if (along.norm() > 8)
-      out += svg::text(x + 1.25 * along.x(), y - 1.25 * along.y() + 4, "middle", "kn",
-                       std::string(1, "xyz"[i]));
+    Eigen::Vector2d along = projected(plot.view, one.axes.col(i).normalized()) * kLength_px;
+    along.y() = -along.y();
+    const Eigen::Vector2d tip = at + along;
+    out += svg::line(at.x(), at.y(), tip.x(), tip.y(), "kl c6");
+    if (along.norm() < 8) continue;
+    const std::string letter(1, "xyz"[i]);
+    const Eigen::Vector2d below(0, 4);
+    const Eigen::Vector2d step = along.normalized() * 14;
+    const Eigen::Vector2d first = at + 1.25 * along + below;
+    const Eigen::Vector2d free = words.place(letter, {first, first + step, first + 2 * step});
+    out += svg::text(free.x(), free.y(), "middle", "kn", letter);
   }
-  return out + svg::text(x + 8, y + 18, "start", "", one.name);
+  const Eigen::Vector2d first = at + Eigen::Vector2d(8 + svg::text_width(one.name) / 2, 18);
+  const Eigen::Vector2d row(0, 14);
+  const Eigen::Vector2d free =
+      words.place(one.name, {first, first + row, first + 2 * row, first + 3 * row});
+  return out + svg::text(free.x(), free.y(), "middle", "", one.name);
 }
 
 /// A bar of 1, 2 or 5 times a power of ten metres, about a sixth of the width.
@@ -148,7 +158,8 @@ std::string svg_space(const SpacePlot& plot) {
   const Sheet sheet = sheet_of(plot, top);
   std::string inside;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) inside += line(plot, i, sheet);
-  for (const SpaceFrame& one : plot.frames) inside += frame(plot, one, sheet);
+  svg::FreeWords words;
+  for (const SpaceFrame& one : plot.frames) inside += frame(plot, one, sheet, words);
   std::string body = svg::text(kEdge, 20, "start", "kh", plot.title) + names.drawing;
   if (sheet.empty) {
     body +=

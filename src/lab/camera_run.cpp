@@ -8,6 +8,8 @@
 
 #include "kestrel/lab/law_sight.hpp"
 
+#include "law_timer.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -23,8 +25,9 @@ bool is_in(const LabCamera& camera, const Feature& point) {
 /// One run, step by step.
 class CameraLoop {
  public:
-  explicit CameraLoop(const CameraSetup& setup)
+  CameraLoop(const CameraSetup& setup, const LabClock& clock)
       : setup_(setup),
+        timer_(clock),
         law_(setup.law),
         sight_(setup),
         centre_m_(centre_of(setup.scenario.points_m)),
@@ -35,12 +38,12 @@ class CameraLoop {
     step_.goal_from_camera = setup.scenario.start_in_goal();
   }
 
-  RunResult run(const std::function<void(const RunStep&)>& observe, const LabClock& clock) {
+  RunResult run(const std::function<void(const RunStep&)>& observe) {
     RunResult result;
     for (int k = 0; k < setup_.conditions.steps; ++k) {
       if (!see(k)) return ended(result, RunEnd::Diverged);
       const std::optional<RunEnd> stop = stop_reason();
-      if (!stop) steer(result, clock);
+      if (!stop) steer();
       observe(step_);
       ++result.steps;
       if (stop) return ended(result, *stop);
@@ -85,11 +88,9 @@ class CameraLoop {
     return std::nullopt;
   }
 
-  void steer(RunResult& result, const LabClock& clock) {
+  void steer() {
     sight_.look(step_.points, step_.camera_from_target, motion_);
-    const double begin_s = clock ? clock() : 0;
-    LawAnswer answer = control_law(sight_.told(), law_, state_);
-    if (clock) result.law_s += clock() - begin_s;
+    LawAnswer answer = timer_.timed([&] { return control_law(sight_.told(), law_, state_); });
     const bool is_usable = answer.twist && answer.twist->vector().allFinite();
     if (is_usable) step_.twist = limited(*answer.twist);
     step_.refusal = answer.refusal;
@@ -125,11 +126,13 @@ class CameraLoop {
 
   RunResult ended(RunResult result, RunEnd end) const {
     result.end = end;
+    result.law_s = timer_.all_s();
     if (end == RunEnd::Refused) result.refusal = step_.refusal;
     return result;
   }
 
   const CameraSetup& setup_;
+  LawTimer timer_;
   LawOptions law_;
   LawSight sight_;
   Eigen::Vector3d centre_m_;
@@ -174,7 +177,7 @@ LawOptions benchmark_law(Law law) {
 RunResult run_camera(const CameraSetup& setup, const std::function<void(const RunStep&)>& observe,
                      const LabClock& clock) {
   setup.check();
-  return CameraLoop(setup).run(observe, clock);
+  return CameraLoop(setup, clock).run(observe);
 }
 
 }  // namespace kestrel

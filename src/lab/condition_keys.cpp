@@ -1,45 +1,14 @@
-#include <cmath>
-#include <functional>
 #include <limits>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "kestrel/io/csv.hpp"
-#include "kestrel/io/text_file.hpp"
-#include "kestrel/lab/lab_plan.hpp"
-
+#include "condition_key.hpp"
 #include "plan_keys.hpp"
 
 namespace kestrel {
 namespace {
 
-struct ConditionKey {
-  std::string name;
-  std::function<std::optional<double>(const Conditions&)> get;
-  std::function<void(Conditions&, double)> set;
-};
-
-ConditionKey plain(const std::string& name, double Conditions::*number) {
-  return {name, [number](const Conditions& c) { return c.*number; },
-          [number](Conditions& c, double value) { c.*number = value; }};
-}
-
-double whole(const std::string& key, double value, double largest) {
-  if (value != std::floor(value) || value < 0 || value > largest) {
-    throw std::invalid_argument(key + ": " + number(value) + " is no whole number from 0 to " +
-                                number(largest) + "; write one");
-  }
-  return value;
-}
-
-ConditionKey count(const std::string& name, int Conditions::*number) {
-  return {
-      name, [number](const Conditions& c) { return double(c.*number); },
-      [name, number](Conditions& c, double value) { c.*number = int(whole(name, value, 1e7)); }};
-}
-
-ConditionKey limit(const std::string& name, double CameraLimits::*number, double unit) {
+ConditionKey<Conditions> limit(const std::string& name, double CameraLimits::*number, double unit) {
   return {name,
           [number, unit](const Conditions& c) {
             return c.limits ? std::optional(in_unit((*c.limits).*number, unit)) : std::nullopt;
@@ -47,47 +16,29 @@ ConditionKey limit(const std::string& name, double CameraLimits::*number, double
           [number, unit](Conditions& c, double value) {
             if (!c.limits) c.limits.emplace();
             (*c.limits).*number = value * unit;
-          }};
-}
-
-const std::vector<ConditionKey>& keys() {
-  using C = Conditions;
-  static const std::vector<ConditionKey> all{
-      {"gain_per_s", [](const C& c) { return c.gain_per_s; },
-       [](C& c, double value) { c.gain_per_s = value; }},
-      plain("rate_hz", &C::rate_hz),
-      count("steps", &C::steps),
-      plain("depth_factor", &C::depth_factor),
-      plain("focal_factor", &C::focal_factor),
-      plain("principal_u_px", &C::principal_u_px),
-      plain("principal_v_px", &C::principal_v_px),
-      plain("noise_px", &C::noise_px),
-      {"seed", [](const C& c) { return double(c.seed); },
-       [](C& c, double value) { c.seed = std::uint64_t(whole("seed", value, 0x1p53)); }},
-      count("delay_frames", &C::delay_frames),
-      limit("limit_linear_m_s", &CameraLimits::linear_m_s, 1),
-      limit("limit_angular_deg_s", &CameraLimits::angular_rad_s, kPlanDegree)};
-  return all;
-}
-
-const ConditionKey& key_named(const std::string& name) {
-  for (const ConditionKey& key : keys()) {
-    if (key.name == name) return key;
-  }
-  const std::string near = nearest_word(name, condition_keys());
-  throw std::invalid_argument(name + ": is no key of the conditions" +
-                              (near.empty() ? "" : "; did you mean " + near + "?"));
+          },
+          {}};
 }
 
 }  // namespace
 
-const std::vector<std::string>& condition_keys() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const ConditionKey& key : keys()) all.push_back(key.name);
-    return all;
-  }();
-  return names;
+template <>
+const std::vector<ConditionKey<Conditions>>& condition_keys_of<Conditions>() {
+  using C = Conditions;
+  static const std::vector<ConditionKey<C>> all{
+      gain_key<C>(),
+      number_key("rate_hz", &C::rate_hz),
+      count_key("steps", &C::steps),
+      number_key("depth_factor", &C::depth_factor),
+      number_key("focal_factor", &C::focal_factor),
+      number_key("principal_u_px", &C::principal_u_px),
+      number_key("principal_v_px", &C::principal_v_px),
+      number_key("noise_px", &C::noise_px),
+      seed_key<C>(),
+      count_key("delay_frames", &C::delay_frames),
+      limit("limit_linear_m_s", &CameraLimits::linear_m_s, 1),
+      limit("limit_angular_deg_s", &CameraLimits::angular_rad_s, kPlanDegree)};
+  return all;
 }
 
 double in_unit(double value, double unit) {
@@ -99,16 +50,6 @@ double in_unit(double value, double unit) {
     if (written * unit == value) return written;
   }
   return near;
-}
-
-std::optional<double> setting_of(const Conditions& conditions, const std::string& key) {
-  return key_named(key).get(conditions);
-}
-
-Conditions with_setting(Conditions conditions, const ConditionSetting& setting) {
-  key_named(setting.first).set(conditions, setting.second);
-  conditions.check();
-  return conditions;
 }
 
 }  // namespace kestrel

@@ -1,8 +1,9 @@
 #include "kestrel/lab/conditions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "modifier_words.hpp"
 
 namespace kestrel {
 namespace {
@@ -19,15 +20,8 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 }
 
 double number_of(const std::string& word, std::size_t letters) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(word.substr(letters), &used);
-  } catch (const std::logic_error&) {
-    reject(word);
-  }
-  if (letters + used != word.size() || !std::isfinite(value)) reject(word);
-  return value;
+  if (const auto value = number_behind(word, letters)) return *value;
+  reject(word);
 }
 
 int whole_number_of(const std::string& word, std::size_t letters) {
@@ -93,14 +87,7 @@ void Conditions::check() const {
 }
 
 Conditions modified(const Conditions& conditions, const std::string& modifier) {
-  Conditions changed = conditions;
-  for (std::size_t begin = 0; begin < modifier.size();) {
-    const std::size_t end = std::min(modifier.find('_', begin), modifier.size());
-    changed = with_word(changed, modifier.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  changed.check();
-  return changed;
+  return with_words(conditions, modifier, with_word);
 }
 
 }  // namespace kestrel

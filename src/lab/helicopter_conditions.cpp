@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "modifier_words.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -60,15 +62,9 @@ HelicopterConditions with_number(HelicopterConditions c, const std::string& word
   const std::size_t letters = std::min(word.find_first_of("0123456789+-."), word.size());
   for (const Numbered& known : numbered_words()) {
     if (known.letters != word.substr(0, letters)) continue;
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(word.substr(letters), &used);
-    } catch (const std::logic_error&) {
-      reject(word);
-    }
-    if (letters + used != word.size() || !std::isfinite(value)) reject(word);
-    known.change(c, value);
+    const std::optional<double> value = number_behind(word, letters);
+    if (!value) reject(word);
+    known.change(c, *value);
     return c;
   }
   reject(word);
@@ -130,14 +126,7 @@ void HelicopterConditions::check() const {
 }
 
 HelicopterConditions modified(const HelicopterConditions& conditions, const std::string& modifier) {
-  HelicopterConditions changed = conditions;
-  for (std::size_t begin = 0; begin < modifier.size();) {
-    const std::size_t end = std::min(modifier.find('_', begin), modifier.size());
-    changed = with_word(changed, modifier.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  changed.check();
-  return changed;
+  return with_words(conditions, modifier, with_word);
 }
 
 }  // namespace kestrel

@@ -5,12 +5,11 @@
 namespace kestrel {
 
 HelicopterPilot::HelicopterPilot(const HelicopterSetup& setup, const LabClock& clock)
-    : setup_(setup), clock_(clock), sight_(setup) {}
+    : setup_(setup), timer_(clock), sight_(setup) {}
 
 HelicopterLawAnswer HelicopterPilot::answer(const HelicopterLawInput& input) {
-  const double begin_s = clock_ ? clock_() : 0;
-  HelicopterLawAnswer given = helicopter_law(input, setup_.law, memory_);
-  if (clock_) law_s_ += clock_() - begin_s;
+  HelicopterLawAnswer given =
+      timer_.timed([&] { return helicopter_law(input, setup_.law, memory_); });
   memory_ = given.law.next;
   last_.refusal = given.refusal;
   last_.rank = given.law.rank;

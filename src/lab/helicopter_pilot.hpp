@@ -5,6 +5,8 @@
 #include "kestrel/lab/helicopter_run.hpp"
 #include "kestrel/lab/helicopter_sight.hpp"
 
+#include "law_timer.hpp"
+
 namespace kestrel {
 
 /// Who flies a helicopter run: sight, law, limits, failsafe.
@@ -19,7 +21,7 @@ class HelicopterPilot {
   void tell(HelicopterStep& step) const;
 
   /// Spent in the law, s.
-  double law_s() const { return law_s_; }
+  double law_s() const { return timer_.all_s(); }
 
  private:
   HelicopterLawAnswer answer(const HelicopterLawInput& input);
@@ -27,13 +29,12 @@ class HelicopterPilot {
   void do_without(double time_s);
 
   const HelicopterSetup& setup_;
-  LabClock clock_;
+  LawTimer timer_;
   HelicopterSight sight_;
   LawState memory_;
   HelicopterStep last_;            // the fields of the command only
   VelocityCommand servo_command_;  // the last one that the law gave, after limits
   std::optional<double> servo_s_;  // when
-  double law_s_ = 0;
 };
 
 }  // namespace kestrel

@@ -80,13 +80,25 @@ class Judge {
     return std::nullopt;
   }
 
+  /// Takes the step once it is complete.
+  void watch(const HelicopterStep& step) {
+    const HelicopterState& s = step.frame.state;
+    const double moving = std::hypot(s.velocity_m_s.norm(), s.yaw_rate_rad_s);
+    const bool is_still =
+        step.seen && step.refusal == LawRefusal::None &&
+        std::max(moving, step.wanted.vector().norm()) < setup_.rules.still_threshold;
+    if (!is_still) moved_s_ = step.frame.time_s;
+  }
+
   RunEnd end(const HelicopterStep& step) const {
     const bool there = step.position_error_m.norm() <= setup_.rules.position_tolerance_m;
     const bool aligned = std::abs(step.heading_error_rad) < setup_.rules.heading_tolerance_rad;
     if (there && aligned) return RunEnd::Converged;
     if (there) return RunEnd::PositionOnly;
     if (aligned) return RunEnd::HeadingOnly;
-    return step.refusal == LawRefusal::None ? RunEnd::TimedOut : RunEnd::Refused;
+    if (step.refusal != LawRefusal::None) return RunEnd::Refused;
+    const bool has_stood = step.frame.time_s - moved_s_ >= setup_.rules.still_s;
+    return has_stood ? RunEnd::LocalMinimum : RunEnd::TimedOut;
   }
 
  private:
@@ -102,6 +114,7 @@ class Judge {
   std::vector<Feature> desired_;
   double goal_heading_rad_;
   Eigen::Vector3d goal_m_;
+  double moved_s_ = 0;  // when it last was not still
 };
 
 }  // namespace
@@ -109,6 +122,9 @@ class Judge {
 void HelicopterRules::check() const {
   demand(is_positive(position_tolerance_m), "position_tolerance_m must be above 0");
   demand(is_positive(heading_tolerance_rad), "heading_tolerance_rad must be above 0");
+  demand(std::isfinite(still_threshold) && still_threshold >= 0,
+         "still_threshold must not be negative");
+  demand(is_positive(still_s), "still_s must be above 0");
   demand(std::isfinite(collision_m) && collision_m >= 0, "collision_m must not be negative");
   demand(is_positive(diverged_m), "diverged_m must be above 0");
 }
@@ -126,7 +142,7 @@ RunResult run_helicopter(const HelicopterSetup& wanted,
                          const LabClock& clock) {
   wanted.check();
   const HelicopterSetup setup = with_gain(wanted);
-  const Judge judge(setup);
+  Judge judge(setup);
   const int last = int(std::lround(setup.conditions.duration_s / kHelicopterFrame_s));
   HelicopterPilot pilot(setup, clock);
   HelicopterState state = start_of(setup.scenario);
@@ -136,6 +152,7 @@ RunResult run_helicopter(const HelicopterSetup& wanted,
     const std::optional<RunEnd> stop = judge.stop(step);
     if (!stop && k < last) pilot.fly(step.frame);
     pilot.tell(step);
+    judge.watch(step);
     result.end = stop.value_or(judge.end(step));
     result.refusal = step.refusal;
     if (stop && !(std::isfinite(step.error_norm) && step.position_error_m.allFinite())) break;

@@ -6,25 +6,13 @@
 #include "kestrel/geometry/rotation.hpp"
 #include "kestrel/geometry/twist.hpp"
 
+#include "law_needs.hpp"
+
 namespace kestrel {
 namespace {
 
 bool is_levelled(HelicopterVariant variant) {
   return variant != HelicopterVariant::Raw4 && variant != HelicopterVariant::Drop6;
-}
-
-bool needs_pose(Law law) {
-  switch (law) {
-    case Law::PmjR:
-    case Law::PmjT:
-    case Law::TwoAndHalfD:
-    case Law::PbvsCt:
-    case Law::PbvsCo:
-    case Law::Screw:
-      return true;
-    default:
-      return false;
-  }
 }
 
 /// Image times are compared to a millionth of a frame: 60 / 30 s is 2 s.

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "kestrel/geometry/rotation.hpp"
-#include "kestrel/lab/helicopter_benchmark.hpp"
 
 #include "plan_keys.hpp"
 
@@ -33,14 +32,20 @@ void require_once(std::set<std::string>& names, const std::string& name, const s
 
 void check_names(const LabPlan& plan) {
   std::set<std::string> laws;
-  std::set<std::string> scenarios{"map", "basin", "margin"};  // beginnings of other ids
+  std::set<std::string> scenarios{"map", "basin", "margin", "order"};  // beginnings of other ids
   std::set<std::string> modifiers;
+  std::set<std::string> flown_laws;
+  std::set<std::string> flown_modifiers;
   std::set<std::string> maps;
   std::set<std::string> basins;
   for (const auto& law : plan.laws) require_once(laws, law.label, "laws");
   for (const auto& scenario : plan.scenarios) require_once(scenarios, scenario.name, "scenarios");
   for (const auto& scenario : plan.helicopter.scenarios) {
     require_once(scenarios, scenario.name, "scenarios");
+  }
+  for (const auto& law : plan.helicopter.laws) require_once(flown_laws, law.label, "laws");
+  for (const auto& modifier : plan.helicopter.modifiers) {
+    require_once(flown_modifiers, modifier.name, "modifiers");
   }
   for (const auto& modifier : plan.modifiers) require_once(modifiers, modifier.name, "modifiers");
   for (const auto& map : plan.maps) require_once(maps, map.name, "maps");
@@ -77,10 +82,11 @@ void check_parts(const LabPlan& plan) {
     scenario_named(plan, margin.scenario);
     laws_labelled(plan, margin.laws);
   }
-  for (const HelicopterScenario& scenario : plan.helicopter.scenarios) scenario.check();
-  for (const std::string& label : plan.helicopter.laws) helicopter_law_labelled(label);
-  for (const std::string& words : plan.helicopter.modifiers)
-    modified(HelicopterConditions{}, words);
+  for (const PlannedOrder& order : plan.orders) {
+    scenario_named(plan, order.scenario);
+    laws_labelled(plan, order.laws);
+  }
+  plan.helicopter.check();
 }
 
 }  // namespace
@@ -123,27 +129,6 @@ void LabPlan::check() const {
   for (const PlannedLaw& law : laws) law.options.check();
   for (const Scenario& scenario : scenarios) scenario.check();
   check_parts(*this);
-}
-
-std::pair<HelicopterVariant, Law> helicopter_law_labelled(const std::string& label) {
-  for (const HelicopterVariant variant : all_helicopter_variants()) {
-    for (const Law law : all_laws()) {
-      if (label == helicopter_law_label(variant, law)) {
-        const bool is_mejias = variant == HelicopterVariant::Mejias;
-        return {variant, is_mejias ? Law::Decoupled : law};
-      }
-    }
-  }
-  reject("there is no law " + label +
-         " on a helicopter; write a variant and a law, vp4_des, or "
-         "mejias");
-}
-
-Conditions with_modifier(const Conditions& conditions, const PlannedModifier& modifier) {
-  Conditions changed = modified(conditions, modifier.words);
-  for (const ConditionSetting& setting : modifier.settings)
-    changed = with_setting(changed, setting);
-  return changed;
 }
 
 Scenario turned(Scenario scenario, double rz_deg) {

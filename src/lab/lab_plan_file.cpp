@@ -9,6 +9,7 @@
 
 #include "plan_keys.hpp"
 #include "plan_parts.hpp"
+#include "plan_settings.hpp"
 
 namespace kestrel {
 namespace {
@@ -22,40 +23,10 @@ std::vector<std::string> names(const std::vector<Scenario>& scenarios) {
   return all;
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> all;
-  for (const Law law : all_laws()) all.emplace_back(name(law));
-  return all;
-}
-
-[[noreturn]] void unknown(const Section& section, const std::string& key, const std::string& what,
-                          const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(word, known);
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-  section.fail(key, "there is no " + what + " " + word +
-                        (near.empty() ? "; write one of " + list : "; did you mean " + near + "?"));
-}
-
-Law law_of(const Section& section, const std::string& key, const std::string& word) {
-  const auto law = law_named(word);
-  if (!law) unknown(section, key, "law", word, law_names());
-  return *law;
-}
-
 PlannedLaw read_law(const Section& section) {
-  PlannedLaw planned;
   const std::string word = section.text("law");
-  planned.options = benchmark_law(law_of(section, "law", word));
-  planned.label = section.text("label", word);
-  LawOptions& options = planned.options;
-  options.solver = section.choice<LawSolver>(
-      "solver", {{"eigen", LawSolver::Eigen}, {"visp", LawSolver::Visp}}, options.solver);
-  if (section.has("gain_per_s")) options.gain = LawGain::constant(section.number("gain_per_s"));
-  read_numbers(section, gain_keys(), options.gain);
-  read_numbers(section, law_keys(), options);
-  or_fail(section, "", [&] { options.check(); });
-  return planned;
+  const LawOptions options = benchmark_law(law_of(section, "law", word));
+  return {section.text("label", word), read_law_options(section, options)};
 }
 
 std::vector<PlannedLaw> read_laws(const Section& root) {
@@ -83,31 +54,12 @@ std::vector<Scenario> read_scenarios(const Section& root) {
     } else {
       const auto found = std::find_if(known.begin(), known.end(),
                                       [&](const Scenario& s) { return s.name == item.word; });
-      if (found == known.end()) unknown(root, "scenarios", "scenario", item.word, names(known));
+      if (found == known.end())
+        fail_unknown(root, "scenarios", "scenario", item.word, names(known));
       scenarios.push_back(*found);
     }
   }
   return scenarios;
-}
-
-LabCamera read_camera(const Section& section) {
-  LabCamera camera;
-  camera.focal_px = section.number("focal_px", camera.focal_px);
-  if (section.has("principal_px")) {
-    const std::vector<double> principal = section.numbers("principal_px", 2);
-    camera.principal_u_px = principal[0];
-    camera.principal_v_px = principal[1];
-  }
-  if (section.has("size_px")) {
-    const std::vector<double> size = section.numbers("size_px", 2);
-    camera.width_px = int(size[0]);
-    camera.height_px = int(size[1]);
-    if (camera.width_px != size[0] || camera.height_px != size[1]) {
-      section.fail("size_px", "are no whole numbers of pixels; write whole numbers");
-    }
-  }
-  or_fail(section, "", [&] { camera.check(); });
-  return camera;
 }
 
 RunRules read_rules(const Section& section) {
@@ -143,12 +95,14 @@ LabPlan load_plan(const std::filesystem::path& file) {
   if (const auto camera = root.child_if("camera")) plan.camera = read_camera(*camera);
   if (const auto c = root.child_if("conditions")) plan.conditions = read_conditions(*c, {});
   if (const auto rules = root.child_if("rules")) plan.rules = read_rules(*rules);
-  if (root.has("modifiers")) plan.modifiers = read_modifiers(root, "modifiers");
+  plan.modifiers = read_modifiers<Conditions>(root);
   plan.maps = read_list<PlannedMap>(root, "maps", read_map);
   plan.basins = read_list<PlannedBasin>(
       root, "basins", [&](const Section& section) { return read_basin(section, plan); });
   plan.margins = read_list<PlannedMargin>(root, "margins", read_margin);
-  if (const auto h = root.child_if("helicopter")) plan.helicopter = read_helicopter(*h);
+  plan.orders = read_list<PlannedOrder>(root, "orders", read_order);
+  if (const auto h = root.child_if("helicopter"))
+    plan.helicopter = read_helicopter(*h, plan.camera);
   root.done();
   or_fail(root, "", [&] { plan.check(); });
   return plan;

@@ -49,6 +49,24 @@ class Figures {
   std::vector<std::string> names_;
 };
 
+/// A row for each scenario and law: the two figures of its runs, which follow one another.
+template <class ScenarioOf>
+void add_pairs(Table& table, const std::vector<const MadeRun*>& runs,
+               const ScenarioOf& scenario_of) {
+  for (const MadeRun* made : runs) {
+    const LabRun& run = made->run;
+    const std::string scenario = scenario_of(*made);
+    if (table.rows.empty() || table.rows.back()[0] != SummaryValue(scenario) ||
+        table.rows.back()[1] != SummaryValue(run.law)) {
+      table.rows.push_back({scenario, run.law, kNone, kNone});
+    }
+    for (std::size_t column : {2, 3}) {
+      const auto value = figure(run, table.columns[column].name);
+      if (value) table.rows.back()[column] = *value;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<MadeRun> made_runs(const std::vector<PlannedRun>& planned,
@@ -142,18 +160,15 @@ Table map_table(const LabPlan& plan, std::size_t map, const std::vector<MadeRun>
 
 Table margin_table(const LabPlan& plan, const std::vector<MadeRun>& runs) {
   Table table{{{"scenario"}, {"law"}, {"gain_limit_per_s", 3}, {"delay_limit_frames"}}, {}};
-  for (const MadeRun* made : of_part(runs, LabPart::Margin)) {
-    const LabRun& run = made->run;
-    const std::string& scenario = plan.margins[made->of].scenario;
-    if (table.rows.empty() || table.rows.back()[0] != SummaryValue(scenario) ||
-        table.rows.back()[1] != SummaryValue(run.law)) {
-      table.rows.push_back({scenario, run.law, kNone, kNone});
-    }
-    for (std::size_t column : {2, 3}) {
-      const auto value = figure(run, table.columns[column].name);
-      if (value) table.rows.back()[column] = *value;
-    }
-  }
+  const auto scenario = [&](const MadeRun& made) { return plan.margins[made.of].scenario; };
+  add_pairs(table, of_part(runs, LabPart::Margin), scenario);
+  return table;
+}
+
+Table order_table(const LabPlan& plan, const std::vector<MadeRun>& runs) {
+  Table table{{{"scenario"}, {"law"}, {"slope_to_screw", 3}, {"slope_to_straight_line", 3}}, {}};
+  const auto scenario = [&](const MadeRun& made) { return plan.orders[made.of].scenario; };
+  add_pairs(table, of_part(runs, LabPart::Order), scenario);
   return table;
 }
 

@@ -2,27 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "kestrel/eval/spread.hpp"
 #include "kestrel/lab/logged_features.hpp"
 #include "kestrel/loop/decide.hpp"
 
 namespace kestrel {
-namespace {
-
-std::optional<double> median(std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-std::optional<double> largest(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return *std::max_element(values.begin(), values.end());
-}
-
-}  // namespace
-
 LawReplay replayed(const LogFile& log, const Task& task, Law law) {
   Task with_law = task;
   with_law.servo.law = law;
@@ -60,10 +46,14 @@ ReplayDifference difference(const LawReplay& replay, const LogFile& log) {
     speeds.push_back(d.head<3>().norm());
     rates.push_back(std::abs(d[3]));
   }
-  result.largest_m_s = largest(speeds);
-  result.largest_rad_s = largest(rates);
-  result.median_m_s = median(speeds);
-  result.median_rad_s = median(rates);
+  if (const auto spread = spread_of(std::move(speeds))) {
+    result.median_m_s = spread->median;
+    result.largest_m_s = spread->max;
+  }
+  if (const auto spread = spread_of(std::move(rates))) {
+    result.median_rad_s = spread->median;
+    result.largest_rad_s = spread->max;
+  }
   return result;
 }
 

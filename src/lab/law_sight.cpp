@@ -5,24 +5,10 @@
 #include "kestrel/geometry/point_homography.hpp"
 #include "kestrel/geometry/point_pose.hpp"
 
+#include "law_needs.hpp"
+
 namespace kestrel {
 namespace {
-
-bool needs_pose(Law law) {
-  switch (law) {
-    case Law::PmjR:
-    case Law::PmjT:
-    case Law::TwoAndHalfD:
-    case Law::PbvsCt:
-    case Law::PbvsCo:
-    case Law::Screw:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool needs_homography(Law law) { return law == Law::CurZhomog || law == Law::Homog; }
 
 /// Nothing stands between the law and the true points.
 bool is_exact(const Conditions& c) {

@@ -1,8 +1,10 @@
 #include <algorithm>
 
 #include "kestrel/io/mount_file.hpp"
+#include "kestrel/lab/helicopter_benchmark.hpp"
 
 #include "plan_parts.hpp"
+#include "plan_settings.hpp"
 
 namespace kestrel {
 namespace {
@@ -36,6 +38,12 @@ HelicopterScenario read_flight(const Section& section) {
   return scenario;
 }
 
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const HelicopterScenario& scenario : helicopter_scenarios()) all.push_back(scenario.name);
+  return all;
+}
+
 std::vector<HelicopterScenario> read_flights(const Section& section) {
   const std::vector<HelicopterScenario>& known = helicopter_scenarios();
   if (!section.has("scenarios")) return known;
@@ -49,9 +57,7 @@ std::vector<HelicopterScenario> read_flights(const Section& section) {
       const auto found = std::find_if(known.begin(), known.end(), [&](const auto& scenario) {
         return scenario.name == item.word;
       });
-      if (found == known.end()) {
-        section.fail("scenarios", "there is no scenario " + item.word + "; write H0 or H1");
-      }
+      if (found == known.end()) fail_unknown(section, "scenarios", "scenario", item.word, names());
       scenarios.push_back(*found);
     }
   }
@@ -69,22 +75,90 @@ std::vector<std::string> benchmark_labels() {
   return labels;
 }
 
+HelicopterVariant variant_of(const Section& section) {
+  const std::string word = section.text("variant");
+  if (const auto variant = helicopter_variant_named(word)) return *variant;
+  std::vector<std::string> known;
+  for (const HelicopterVariant one : all_helicopter_variants()) known.emplace_back(name(one));
+  fail_unknown(section, "variant", "variant", word, known);
+}
+
+/// The law inside the variant; that of mejias is its own.
+Law law_inside(const Section& section, HelicopterVariant variant) {
+  if (variant == HelicopterVariant::Mejias) {
+    if (section.has("law")) section.fail("law", "mejias is a law of its own; remove the key");
+    return Law::Decoupled;
+  }
+  return law_of(section, "law", section.text("law"));
+}
+
+PlannedHelicopterLaw read_flown_law(const Section& section) {
+  const HelicopterVariant variant = variant_of(section);
+  const Law law = law_inside(section, variant);
+  PlannedHelicopterLaw planned;
+  planned.label = section.text("label", helicopter_law_label(variant, law));
+  HelicopterLawOptions& options = planned.options;
+  options = benchmark_helicopter_law(variant, law);
+  options.law = read_law_options(section, options.law);
+  // One gain for the image and the heading unless the heading has its own.
+  options.heading_gain_per_s = section.number(
+      "heading_gain_per_s", section.number("gain_per_s", options.heading_gain_per_s));
+  planned.settings = read_settings<HelicopterConditions>(section, helicopter_law_setting_keys());
+  or_fail(section, "", [&] { options.check(); });
+  return planned;
+}
+
+std::vector<PlannedHelicopterLaw> read_flown_laws(const Section& section) {
+  std::vector<PlannedHelicopterLaw> laws;
+  const auto add_all = [&] {
+    for (const std::string& label : benchmark_labels()) {
+      laws.push_back(benchmark_helicopter_law(label));
+    }
+  };
+  if (!section.has("laws")) {
+    add_all();
+    return laws;
+  }
+  for (const SectionItem& item : section.items("laws")) {
+    if (item.keys) {
+      laws.push_back(read_flown_law(*item.keys));
+    } else if (item.word == kAll) {
+      add_all();
+    } else {
+      or_fail(section, "laws", [&] { laws.push_back(benchmark_helicopter_law(item.word)); });
+    }
+  }
+  return laws;
+}
+
+HelicopterConditions read_flight_conditions(const Section& section) {
+  HelicopterConditions conditions;
+  const auto settings = read_settings<HelicopterConditions>(section, helicopter_condition_keys());
+  for (const ConditionSetting& setting : settings) conditions = with_setting(conditions, setting);
+  return conditions;
+}
+
+HelicopterRules read_flight_rules(const Section& section) {
+  HelicopterRules rules;
+  read_numbers(section, helicopter_rule_keys(), rules);
+  rules.stops_out_of_view = section.flag("stops_out_of_view", rules.stops_out_of_view);
+  or_fail(section, "", [&] { rules.check(); });
+  return rules;
+}
+
 }  // namespace
 
-PlannedHelicopter read_helicopter(const Section& section) {
+PlannedHelicopter read_helicopter(const Section& section, const LabCamera& camera) {
   PlannedHelicopter planned;
   planned.scenarios = read_flights(section);
-  if (section.has("laws")) planned.laws = section.words("laws");
-  if (planned.laws.empty() || planned.laws == std::vector<std::string>{kAll}) {
-    planned.laws = benchmark_labels();
+  planned.laws = read_flown_laws(section);
+  planned.camera = camera;
+  if (const auto own = section.child_if("camera")) planned.camera = read_camera(*own);
+  if (const auto keys = section.child_if("conditions")) {
+    planned.conditions = read_flight_conditions(*keys);
   }
-  for (const std::string& label : planned.laws) {
-    or_fail(section, "laws", [&] { helicopter_law_labelled(label); });
-  }
-  if (section.has("modifiers")) planned.modifiers = section.words("modifiers");
-  for (const std::string& words : planned.modifiers) {
-    or_fail(section, "modifiers", [&] { modified(HelicopterConditions{}, words); });
-  }
+  if (const auto keys = section.child_if("rules")) planned.rules = read_flight_rules(*keys);
+  planned.modifiers = read_modifiers<HelicopterConditions>(section);
   return planned;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kestrel/lab/camera_run.hpp"
+#include "kestrel/lab/helicopter_run.hpp"
 #include "kestrel/lab/start_poses.hpp"
 
 /// The numbers that a plan's file may give, by their keys: what reads them and what writes them go
@@ -53,6 +53,17 @@ inline const std::vector<NumberKey<RunRules>>& rule_keys() {
   return keys;
 }
 
+inline const std::vector<NumberKey<HelicopterRules>>& helicopter_rule_keys() {
+  static const std::vector<NumberKey<HelicopterRules>> keys{
+      {"position_tolerance_m", &HelicopterRules::position_tolerance_m},
+      {"heading_tolerance_deg", &HelicopterRules::heading_tolerance_rad, kPlanDegree},
+      {"still_threshold", &HelicopterRules::still_threshold},
+      {"still_s", &HelicopterRules::still_s},
+      {"collision_m", &HelicopterRules::collision_m},
+      {"diverged_m", &HelicopterRules::diverged_m}};
+  return keys;
+}
+
 inline const std::vector<NumberKey<StartBox>>& box_keys() {
   static const std::vector<NumberKey<StartBox>> keys{
       {"largest_tilt_deg", &StartBox::largest_tilt_rad, kPlanDegree},
@@ -64,8 +75,5 @@ inline const std::vector<NumberKey<StartBox>>& box_keys() {
 
 /// The number that times the unit is this value, to the bit where there is one; a short one first.
 double in_unit(double value, double unit);
-
-/// The value of a condition's key; empty when it is not set (gain, limits).
-std::optional<double> setting_of(const Conditions& conditions, const std::string& key);
 
 }  // namespace kestrel

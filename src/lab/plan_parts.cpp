@@ -1,11 +1,9 @@
 #include "plan_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "kestrel/io/csv.hpp"
 #include "kestrel/io/mount_file.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
+
+#include "plan_settings.hpp"
 
 namespace kestrel {
 namespace {
@@ -21,63 +19,18 @@ TargetPose read_start(const Section& section, const TargetPose& goal) {
   return GoalFromCamera{read.rotation, read.translation}.inverse() * goal;
 }
 
+SweptKey read_axis(const Section& section) {
+  return {section.text("key"), section.numbers("values")};
+}
+
+}  // namespace
+
 std::vector<std::string> words_if(const Section& section, const std::string& key) {
   std::vector<std::string> words =
       section.has(key) ? section.words(key) : std::vector<std::string>{};
   if (words == std::vector<std::string>{"all"}) words.clear();
   return words;
 }
-
-/// The settings of the section, in the order of condition_keys().
-std::vector<ConditionSetting> read_settings(const Section& section) {
-  std::vector<ConditionSetting> settings;
-  for (const std::string& key : condition_keys()) {
-    if (!section.has(key)) continue;
-    settings.emplace_back(key, section.number(key));
-    or_fail(section, key, [&] { with_setting({}, settings.back()); });
-  }
-  return settings;
-}
-
-/// Every combination of the swept values, the last key's changing fastest.
-std::vector<PlannedModifier> swept(const Section& sweep, const PlannedModifier& modifier) {
-  std::vector<PlannedModifier> all{modifier};
-  for (const std::string& key : sweep.keys()) {
-    for (const ConditionSetting& setting : modifier.settings) {
-      if (setting.first == key) sweep.fail(key, "is set beside the sweep; remove one of the two");
-    }
-    std::vector<PlannedModifier> longer;
-    for (const PlannedModifier& before : all) {
-      for (const double value : sweep.numbers(key)) {
-        longer.push_back(before);
-        PlannedModifier& now = longer.back();
-        now.settings.emplace_back(key, value);
-        or_fail(sweep, key, [&] { with_setting({}, now.settings.back()); });
-        now.name += (now.name.empty() ? "" : "_") + key + "=" + number(value);
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
-
-std::vector<PlannedModifier> read_modifier(const Section& section) {
-  PlannedModifier modifier;
-  modifier.words = section.text("words", "");
-  const bool is_swept = section.has("sweep");
-  modifier.name = is_swept ? section.text("name", "") : section.text("name");
-  or_fail(section, "words", [&] { modified(Conditions{}, modifier.words); });
-  modifier.settings = read_settings(section);
-  modifier.scenarios = words_if(section, "on");
-  modifier.laws = words_if(section, "laws");
-  return is_swept ? swept(section.child("sweep"), modifier) : std::vector{modifier};
-}
-
-SweptKey read_axis(const Section& section) {
-  return {section.text("key"), section.numbers("values")};
-}
-
-}  // namespace
 
 std::vector<Eigen::Vector3d> read_points(const Section& section) {
   if (section.has("square_m")) {
@@ -109,28 +62,13 @@ Scenario read_scenario(const Section& section) {
 
 Conditions read_conditions(const Section& section, const Conditions& conditions) {
   Conditions changed = conditions;
-  for (const ConditionSetting& setting : read_settings(section)) {
+  for (const ConditionSetting& setting : read_settings<Conditions>(section, condition_keys())) {
     changed = with_setting(changed, setting);
   }
   using Desired = Conditions::Desired;
   changed.desired = section.choice<Desired>(
       "desired", {{"taught", Desired::Taught}, {"model", Desired::Model}}, changed.desired);
   return changed;
-}
-
-std::vector<PlannedModifier> read_modifiers(const Section& root, const std::string& key) {
-  std::vector<PlannedModifier> all;
-  for (const SectionItem& item : root.items(key)) {
-    if (item.keys) {
-      for (PlannedModifier& modifier : read_modifier(*item.keys)) {
-        all.push_back(std::move(modifier));
-      }
-    } else {
-      or_fail(root, key, [&] { modified(Conditions{}, item.word); });
-      all.push_back({item.word, item.word, {}, {}, {}});
-    }
-  }
-  return all;
 }
 
 PlannedMap read_map(const Section& section) {
@@ -168,6 +106,10 @@ PlannedBasin read_basin(const Section& section, const LabPlan& plan) {
 PlannedMargin read_margin(const Section& section) {
   return {section.text("scenario"), words_if(section, "laws"), section.flag("gain", true),
           section.flag("delay", true)};
+}
+
+PlannedOrder read_order(const Section& section) {
+  return {section.text("scenario"), words_if(section, "laws")};
 }
 
 }  // namespace kestrel

@@ -37,9 +37,6 @@ Scenario read_scenario(const Section& section);
 /// The keys of conditions and `desired`, on top of these.
 Conditions read_conditions(const Section& section, const Conditions& conditions);
 
-/// A list of words ("kz2") and of {name, words, on, laws, keys of conditions, sweep}.
-std::vector<PlannedModifier> read_modifiers(const Section& root, const std::string& key);
-
 /// {name, scenario, laws, x, y}.
 PlannedMap read_map(const Section& section);
 
@@ -49,8 +46,28 @@ PlannedBasin read_basin(const Section& section, const LabPlan& plan);
 /// {scenario, laws, gain, delay}.
 PlannedMargin read_margin(const Section& section);
 
-/// {scenarios, laws, modifiers}.
-PlannedHelicopter read_helicopter(const Section& section);
+/// {scenario, laws}.
+PlannedOrder read_order(const Section& section);
+
+/// {scenarios, laws, camera, conditions, rules, modifiers}; without a camera of its own the plan's.
+PlannedHelicopter read_helicopter(const Section& section, const LabCamera& camera);
+
+/// {focal_px, principal_px, size_px}.
+LabCamera read_camera(const Section& section);
+
+/// Solver, gains and the numbers of LawOptions, where the section has them.
+LawOptions read_law_options(const Section& section, LawOptions options);
+
+/// The law of that name; fails with the nearest when there is none.
+Law law_of(const Section& section, const std::string& key, const std::string& word);
+
+/// Fails: there is no such thing of this name; did you mean the nearest, or one of the list?
+[[noreturn]] void fail_unknown(const Section& section, const std::string& key,
+                               const std::string& what, const std::string& word,
+                               const std::vector<std::string>& known);
+
+/// The words of the key; none for "all" or when the section has no such key.
+std::vector<std::string> words_if(const Section& section, const std::string& key);
 
 /// points_m or square_m.
 std::vector<Eigen::Vector3d> read_points(const Section& section);

@@ -60,6 +60,18 @@ std::vector<LabMargin> margins_of(const std::vector<MadeRun>& runs) {
   return margins;
 }
 
+/// Of the slopes towards the screw motion.
+std::vector<LabOrder> orders_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
+  std::vector<LabOrder> orders;
+  for (const MadeRun* made : of_part(runs, LabPart::Order)) {
+    const LabRun& run = made->run;
+    if (run.metrics.empty() || run.metrics.front().first != "slope_to_screw") continue;
+    const std::string where = plan.orders.size() > 1 ? ", " + plan.orders[made->of].scenario : "";
+    orders.push_back({run.law + where, run.metrics.front().second});
+  }
+  return orders;
+}
+
 }  // namespace
 
 LabReport report_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
@@ -69,12 +81,14 @@ LabReport report_of(const LabPlan& plan, const std::vector<MadeRun>& runs) {
     report.scenes.push_back(scene_of(scenario, plan.camera, plan.conditions.limits));
   }
   for (const HelicopterScenario& scenario : plan.helicopter.scenarios) {
-    report.scenes.push_back(scene_of(scenario, LabCamera{}, HelicopterConditions{}.limits));
+    report.scenes.push_back(
+        scene_of(scenario, plan.helicopter.camera, plan.helicopter.conditions.limits));
   }
   for (const MadeRun* made : of_part(runs, LabPart::Table)) report.runs.push_back(made->run);
   report.basins = basins_of(plan, runs);
   report.maps = maps_of(plan, runs);
   report.margins = margins_of(runs);
+  report.orders = orders_of(plan, runs);
   return report;
 }
 

@@ -1,18 +1,14 @@
 #include "kestrel/lab/planned_runs.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "kestrel/lab/camera_experiment.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
 #include "kestrel/lab/margins.hpp"
+#include "kestrel/lab/order_of_accuracy.hpp"
 
 namespace kestrel {
 namespace {
-
-bool applies(const std::vector<std::string>& names, const std::string& name) {
-  return names.empty() || std::count(names.begin(), names.end(), name) > 0;
-}
 
 /// The run of a margin: its one figure, and whether there is one.
 LabRun margin_run(const CameraExperiment& experiment, const std::string& what) {
@@ -32,6 +28,20 @@ LabRun margin_run(const CameraExperiment& experiment, const std::string& what) {
   return run;
 }
 
+/// The run of an order: its one figure, and whether there is one.
+LabRun order_run(const CameraExperiment& experiment, IdealTwist ideal) {
+  LabRun run;
+  run.scenario = experiment.scenario;
+  run.law = experiment.law;
+  run.modifier = experiment.modifier;
+  AccuracyOptions options;
+  options.ideal = ideal;
+  const std::optional<double> slope = order_of_accuracy(experiment.setup, options);
+  run.end = slope ? RunEnd::Converged : RunEnd::Refused;
+  run.metrics = {{"slope_to_" + experiment.modifier, slope}};
+  return run;
+}
+
 /// Expands a plan, part by part.
 class Expansion {
  public:
@@ -42,19 +52,16 @@ class Expansion {
     for (const Scenario& scenario : plan_.scenarios) {
       add_laws(scenario, {});
       for (const PlannedModifier& modifier : plan_.modifiers) {
-        if (applies(modifier.scenarios, scenario.name)) add_laws(scenario, modifier);
+        add_laws(scenario, modifier);
       }
     }
   }
 
   void add_helicopter() {
     for (const HelicopterScenario& scenario : plan_.helicopter.scenarios) {
-      std::vector<std::string> modifiers{""};
-      modifiers.insert(modifiers.end(), plan_.helicopter.modifiers.begin(),
-                       plan_.helicopter.modifiers.end());
-      for (const std::string& modifier : modifiers) {
-        for (const std::string& label : plan_.helicopter.laws)
-          add_flight(scenario, label, modifier);
+      add_flights(scenario, {});
+      for (const PlannedModifier& modifier : plan_.helicopter.modifiers) {
+        add_flights(scenario, modifier);
       }
     }
   }
@@ -96,6 +103,15 @@ class Expansion {
     }
   }
 
+  void add_orders() {
+    for (std::size_t i = 0; i < plan_.orders.size(); ++i) {
+      for (const PlannedLaw& law : laws_labelled(plan_, plan_.orders[i].laws)) {
+        add_order(i, law, IdealTwist::Screw);
+        add_order(i, law, IdealTwist::StraightLine);
+      }
+    }
+  }
+
   std::vector<PlannedRun> runs() { return std::move(runs_); }
 
  private:
@@ -124,19 +140,20 @@ class Expansion {
   void add_laws(const Scenario& scenario, const PlannedModifier& modifier) {
     const Conditions conditions = with_modifier(plan_.conditions, modifier);
     for (const PlannedLaw& law : plan_.laws) {
-      if (!applies(modifier.laws, law.label)) continue;
+      if (!applies(modifier, scenario.name, law.label)) continue;
       const auto experiment = of({scenario.name, law.label, modifier.name, {}, plan_.trace_every},
                                  scenario, law, conditions);
       add({LabPart::Table, 0, law.label, 0, 0, job(experiment.id(), experiment)});
     }
   }
 
-  void add_flight(const HelicopterScenario& scenario, const std::string& label,
-                  const std::string& modifier) {
-    const auto [variant, law] = helicopter_law_labelled(label);
-    HelicopterExperiment experiment = helicopter_experiment(scenario, variant, law, modifier);
-    experiment.trace_every = plan_.trace_every;
-    add({LabPart::Table, 0, label, 0, 0, job(experiment.id(), experiment)});
+  void add_flights(const HelicopterScenario& scenario, const PlannedModifier& modifier) {
+    for (const PlannedHelicopterLaw& law : plan_.helicopter.laws) {
+      if (!applies(modifier, scenario.name, law.label)) continue;
+      HelicopterExperiment experiment = planned_flight(plan_.helicopter, scenario, law, modifier);
+      experiment.trace_every = plan_.trace_every;
+      add({LabPart::Table, 0, law.label, 0, 0, job(experiment.id(), experiment)});
+    }
   }
 
   void add_cell(std::size_t i, const PlannedLaw& law, std::size_t x, std::size_t y) {
@@ -166,6 +183,16 @@ class Expansion {
     add({LabPart::Margin, i, law.label, 0, 0, std::move(made)});
   }
 
+  void add_order(std::size_t i, const PlannedLaw& law, IdealTwist ideal) {
+    const Scenario& scenario = scenario_named(plan_, plan_.orders[i].scenario);
+    const std::string what = ideal == IdealTwist::Screw ? "screw" : "straight_line";
+    const auto experiment =
+        of({scenario.name, law.label, what, {}, 0}, scenario, law, plan_.conditions);
+    LabJob made = job("order/" + scenario.name + "/" + law.label + "/" + what, experiment);
+    made.run = [experiment, ideal] { return order_run(experiment, ideal); };
+    add({LabPart::Order, i, law.label, 0, 0, std::move(made)});
+  }
+
   const LabPlan& plan_;
   std::string program_;
   LabClock clock_;
@@ -183,6 +210,7 @@ std::vector<PlannedRun> planned_runs(const LabPlan& plan, const std::string& pro
   expansion.add_maps();
   expansion.add_basins();
   expansion.add_margins();
+  expansion.add_orders();
   return expansion.runs();
 }
 

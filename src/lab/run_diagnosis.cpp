@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "kestrel/eval/spread.hpp"
 #include "kestrel/lab/vehicle_response.hpp"
 
 #include "oscillation.hpp"
@@ -27,10 +28,10 @@ std::vector<const LogRow*> answered(const LogFile& log) {
   return rows;
 }
 
+/// 0 for none.
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto spread = spread_of(std::move(values));
+  return spread ? spread->median : 0;
 }
 
 /// Median error norm of rows [from, to) as shares of all.
@@ -187,6 +188,7 @@ void look_for_minimum(const std::vector<const LogRow*>& rows, double gain_per_s,
   std::vector<double> ratios;
   for (std::size_t i = rows.size() * 4 / 5; i < rows.size(); ++i) {
     const LoggedServo& servo = *rows[i]->servo;
+    if (!(servo.error_norm > 0)) continue;
     ratios.push_back(servo.twist.vector().norm() / (gain_per_s * servo.error_norm));
   }
   const double left = median_error(rows, 0.8, 1);

@@ -16,6 +16,7 @@ using Points = std::vector<Feature>;
 
 /// The most by which R^T R may miss the identity.
 constexpr double kRotationTolerance = 1e-6;
+constexpr double kSmallestDepth_m = 1e-6;  // as control_law
 
 bool is_levelled(HelicopterVariant variant) {
   return variant != HelicopterVariant::Raw4 && variant != HelicopterVariant::Drop6;
@@ -84,7 +85,7 @@ int columns_of(HelicopterVariant variant) {
 bool are_in_front(const Points& points) {
   return !points.empty() && is_finite(points) &&
          std::all_of(points.begin(), points.end(),
-                     [](const Feature& f) { return f.depth_m >= 1e-6; });
+                     [](const Feature& f) { return f.depth_m >= kSmallestDepth_m; });
 }
 
 /// What the camera's twist asks of the helicopter, with the heading hold of vp3_hh.
@@ -115,6 +116,10 @@ LawRefusal refusal_of(const HelicopterLawInput& input) {
                       std::isfinite(input.heading_rad) && std::isfinite(input.goal_heading_rad) &&
                       input.body_from_camera.translation.allFinite();
   if (!finite) return LawRefusal::NotFinite;
+  // Said here: levelled, a point behind the camera could be anywhere.
+  const Points& measured = input.camera.measured;
+  const auto is_behind = [](const Feature& f) { return f.depth_m < kSmallestDepth_m; };
+  if (std::any_of(measured.begin(), measured.end(), is_behind)) return LawRefusal::Depth;
   const bool rotates = rotation_defect(input.body_from_camera.rotation) <= kRotationTolerance;
   return rotates ? LawRefusal::None : LawRefusal::Unreachable;
 }

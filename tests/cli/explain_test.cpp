@@ -1,7 +1,5 @@
 // The verbs `explain` and `compare RUN` as their users meet them: on a flight of the simulator.
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -24,15 +22,6 @@ goal_camera_from_target: {translation_m: [0, 0, 5.0], rpy_deg: [0, 0, 0]}
 servo: {law: mean, gain_per_s: 0.5, freedom: four}
 simulation: {duration_s: 4}
 )";
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 class Explain : public ::testing::Test {
  protected:

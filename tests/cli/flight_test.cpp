@@ -1,8 +1,6 @@
 // The built-in helicopter flown by the program itself, rendered images and real tracker included.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -15,13 +13,6 @@ namespace kestrel::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::string hover_task() { return (fs::path(KESTREL_SOURCE_DIR) / "tasks/hover.yaml").string(); }
 

@@ -16,13 +16,6 @@
 namespace kestrel::test {
 namespace {
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 void redirect(int descriptor, const char* file, int flags) {
   const int opened = open(file, flags, 0600);
   if (opened < 0) _exit(126);
@@ -90,13 +83,20 @@ Outcome Program::wait(double timeout_s) {
   Outcome outcome;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   outcome.peak_memory_bytes = double(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
-  outcome.out = content(out_);
-  outcome.err = content(err_);
+  outcome.out = read(out_);
+  outcome.err = read(err_);
   return outcome;
 }
 
 Outcome kestrel(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
   return Program(arguments, folder).wait();
+}
+
+std::string read(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace kestrel::test

@@ -38,4 +38,10 @@ class Program {
 /// Starts kestrel and waits for its end.
 Outcome kestrel(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
+/// The bytes of a file; none when it cannot be read.
+std::string read(const std::filesystem::path& file);
+
 }  // namespace kestrel::test
+
+/// Expects the text to have this part, and shows the text when it has not.
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)

@@ -75,6 +75,34 @@ TEST(SvgSpace, HasOneScaleAndABarThatTellsIt) {
   EXPECT_NEAR(std::stod(bar[1]) / std::stod(words[1]), two_m / 2, 0.5);
 }
 
+// Two frames in one place: no two of their eight words stand on one another.
+TEST(SvgSpace, WordsOfFramesInOnePlaceStandApart) {
+  SpacePlot plot;
+  plot.view = {{0, -1, 0}, {-1, -0.7, -1.4}};
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).matrix();
+  plot.frames = {{"start", {0, 0, 0}, turned}, {"goal", {0, 0, 0}, Eigen::Matrix3d::Identity()}};
+  plot.lines = {{"path", {{-1, -1, 0}, {1, 1, 1}}, 0}};
+  const std::string svg = svg_space(plot);
+  const std::regex text("x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" text-anchor=\"middle\">([a-z]+)<");
+  struct Word {
+    double x, y, width;
+  };
+  std::vector<Word> words;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), text), end; at != end; ++at) {
+    // 6 px: no letter of the page's font is narrower than it looks here.
+    words.push_back({std::stod((*at)[1]), std::stod((*at)[2]), 6.0 * double((*at)[3].length())});
+  }
+  ASSERT_EQ(words.size(), 8u);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool apart =
+          std::abs(words[i].x - words[k].x) >= (words[i].width + words[k].width) / 2 ||
+          std::abs(words[i].y - words[k].y) >= 11;
+      EXPECT_TRUE(apart) << i << " on " << k;
+    }
+  }
+}
+
 TEST(SvgSpace, ACutLineDoesNotWidenThePicture) {
   SpacePlot plot = plot_of({{0, 0, 0}, {1, 1, 0}});
   const auto before = vertices(svg_space(plot));

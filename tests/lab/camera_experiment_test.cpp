@@ -37,6 +37,10 @@ TEST(CameraExperiment, TimesTheLawByTheClockGiven) {
   double now_s = 0;
   const LabRun made = run(experiment(Law::Cur, 10, 0), [&] { return now_s += 3e-6; });
   EXPECT_NEAR(made.law_us, 3, 1e-9);
+  EXPECT_NEAR(now_s, 2 * 3e-6, 1e-12);  // one call of sixteen is timed: reading takes time, too
+  now_s = 0;
+  EXPECT_NEAR(run(experiment(Law::Cur, 64, 0), [&] { return now_s += 3e-6; }).law_us, 3, 1e-9);
+  EXPECT_NEAR(now_s, 4 * 2 * 3e-6, 1e-12);
 }
 
 TEST(CameraExperiment, IsTheSameEachTime) {

@@ -63,6 +63,14 @@ TEST(HelicopterMetrics, IntegralsAreSumsOverFrames) {
   const HelicopterMetrics m = metrics_of(steps);
   EXPECT_NEAR(m.position_iae_m_s, 18.35 * kFrame_s, 1e-12);
   EXPECT_NEAR(m.iae_s, 1.835 * kFrame_s, 1e-12);
+  double squares = 0;
+  double by_time = 0;
+  for (const HelicopterStep& step : steps) {
+    squares += step.error_norm * step.error_norm;
+    by_time += step.frame.time_s * step.error_norm;
+  }
+  EXPECT_NEAR(m.ise_s, squares * kFrame_s, 1e-12);
+  EXPECT_NEAR(m.itae_s2, by_time * kFrame_s, 1e-12);
   EXPECT_NEAR(m.effort_m, 12 * kFrame_s, 1e-12);
   EXPECT_NEAR(m.yaw_effort_rad, 1.2 * kFrame_s, 1e-12);
   EXPECT_NEAR(m.saturated_s, kFrame_s, 1e-15);
@@ -88,6 +96,12 @@ TEST(HelicopterMetrics, MarginIsOfThePointNearestToTheBorder) {
   steps[5].frame.points[0].at.x = -0.6;  // u = -40
   EXPECT_NEAR(metrics_of(steps).smallest_margin_px, -40, 1e-9);
   EXPECT_NEAR(metrics_of(steps).first_out_of_view_s.value(), 5 * kFrame_s, 1e-12);
+  steps[5].frame.points[0].at = {0.6, 0};  // u = 680 of 640
+  EXPECT_NEAR(metrics_of(steps).smallest_margin_px, -40, 1e-9);
+  steps[5].frame.points[0].at = {0, 0.45};  // v = 510 of 480
+  EXPECT_NEAR(metrics_of(steps).smallest_margin_px, -30, 1e-9);
+  steps[5].frame.points[0].at = {0, -0.45};
+  EXPECT_NEAR(metrics_of(steps).smallest_margin_px, -30, 1e-9);
 }
 
 TEST(HelicopterMetrics, ConditionCountsWhereSomethingWasInverted) {
@@ -106,6 +120,7 @@ TEST(HelicopterMetrics, ConditionCountsWhereSomethingWasInverted) {
 
 TEST(HelicopterMetrics, NamesAreUniqueAndAnEmptyRunHasFigures) {
   std::set<std::string> names;
+  EXPECT_EQ(metrics_of({}).smallest_margin_px, 0);
   for (const auto& [key, value] : named(metrics_of({}))) {
     EXPECT_TRUE(names.insert(key).second) << key;
     EXPECT_TRUE(!value || std::isfinite(*value)) << key;

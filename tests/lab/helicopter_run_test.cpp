@@ -43,8 +43,47 @@ TEST(HelicopterRun, LevelVariantsAndDrop6ReachTheGoalFromAWrongHeading) {
 TEST(HelicopterRun, WithoutAHeadingItParksAside) {
   const Flight flight = flown(setup_of(helicopter_h1(), Variant::Vp3, Law::Des));
   EXPECT_NEAR(missed_m(flight), 1.051, 5e-4);
-  EXPECT_EQ(flight.result.end, RunEnd::TimedOut);
+  EXPECT_EQ(flight.result.end, RunEnd::LocalMinimum);  // it stands, off in place and heading
   EXPECT_EQ(flown(setup_of(helicopter_h0(), Variant::Vp3, Law::Des)).result.end, RunEnd::Converged);
+}
+
+// vp3 parks aside with its heading 12 deg off. Standing is no local minimum before it has lasted,
+// while noise moves the command, when nothing is seen (it hovers because it must), or from a
+// threshold on below which nothing is still.
+TEST(HelicopterRun, ALocalMinimumIsToStandInSightOfTheTarget) {
+  const HelicopterSetup parked = setup_of(helicopter_h1(), Variant::Vp3, Law::Des);
+  const auto end = [&](const auto& change) {
+    HelicopterSetup setup = parked;
+    change(setup);
+    return flown(setup).result.end;
+  };
+  EXPECT_EQ(end([](auto&) {}), RunEnd::LocalMinimum);
+  EXPECT_EQ(end([](auto& s) { s.conditions.duration_s = 12; }), RunEnd::TimedOut);
+  EXPECT_EQ(end([](auto& s) { s.rules.still_s = 40; }), RunEnd::TimedOut);
+  EXPECT_EQ(end([](auto& s) { s.conditions.noise_px = 1; }), RunEnd::TimedOut);
+  EXPECT_EQ(end([](auto& s) { s.rules.still_threshold = 0; }), RunEnd::TimedOut);
+  EXPECT_EQ(end([](auto& s) { s.conditions = modified(s.conditions, "loss2"); }), RunEnd::TimedOut);
+}
+
+// At 1e-4 m/s and rad/s the vehicle is still; moving through a point where the law asks for nothing
+// it is not.
+TEST(HelicopterRun, AVehicleThatMovesIsNotStill) {
+  HelicopterSetup setup = setup_of(helicopter_h1(), Variant::Vp3, Law::Des);
+  // At once: what counts is the last step alone, at which the slow loop still moves.
+  setup.rules.still_s = 1e-9;
+  std::optional<double> first_s;
+  const Flight flight = flown(setup);
+  for (const HelicopterStep& step : flight.steps) {
+    const HelicopterState& s = step.frame.state;
+    const double moving = std::hypot(s.velocity_m_s.norm(), s.yaw_rate_rad_s);
+    const bool is_still = std::max(moving, step.wanted.vector().norm()) < 1e-4;
+    if (is_still && !first_s) first_s = step.frame.time_s;
+  }
+  ASSERT_TRUE(first_s);
+  setup.conditions.duration_s = *first_s - kHelicopterFrame_s;
+  EXPECT_EQ(flown(setup).result.end, RunEnd::TimedOut);
+  setup.conditions.duration_s = *first_s + 2 * kHelicopterFrame_s;
+  EXPECT_EQ(flown(setup).result.end, RunEnd::LocalMinimum);
 }
 
 // A pitch that is wrong by b moves the level target by Z* tan b = .1746 m; measured .1762.
@@ -62,6 +101,30 @@ TEST(HelicopterRun, AMovingTargetIsFollowedAtSpeedOverGain) {
   EXPECT_NEAR(flown(setup).steps.back().position_error_m.y(), -0.600, 5e-4);  // -.3 / .5
   setup.conditions.feed_forward = true;
   EXPECT_LT(missed_m(flown(setup)), 5e-4);
+}
+
+/// Root mean squares near the goal, a pixel of noise: speed sent (m/s), position (m).
+Eigen::Vector2d noisy_hover(Variant variant) {
+  HelicopterSetup setup = setup_of(helicopter_h0(), variant, Law::Des, "n1_t240");
+  setup.scenario.start_camera_m = {-5, 0, 0};
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  const RunResult result = run_helicopter(setup, [&](const HelicopterStep& step) {
+    squares += Eigen::Vector2d(step.sent.vector().head<3>().squaredNorm(),
+                               step.position_error_m.squaredNorm());
+  });
+  return (squares / result.steps).cwiseSqrt();
+}
+
+// 15 to 30 % more noise than vp4 is the published figure. Over 8 x 600 s it is 18 % of the speed
+// that is sent (after the limits) and 38 % of the position: sideways both are as noisy, and drop6
+// as much again downwards (helicopter_law_test has the closed form).
+TEST(HelicopterRun, Drop6PaysForLevellingByItselfWithNoise) {
+  const Eigen::Vector2d six = noisy_hover(Variant::Drop6);
+  const Eigen::Vector2d four = noisy_hover(Variant::Vp4);
+  EXPECT_GT(six[0] / four[0], 1.15);
+  EXPECT_LT(six[0] / four[0], 1.30);
+  // sqrt(2) less what limits cut; 240 s are some 100 independent samples: 10 %.
+  EXPECT_NEAR(six[1] / four[1], 1.38, 0.14);
 }
 
 // Tilt moves the target in the image; the current matrix answers it ever more.

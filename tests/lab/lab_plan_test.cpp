@@ -49,44 +49,14 @@ TEST(LabPlan, NamesWhatIsWrong) {
   plan.basins = {{"b", "S0_tutorial", {}, {}}};
   EXPECT_THAT(fault(plan), HasSubstr("no starts"));
   plan = small_plan();
-  plan.helicopter = {helicopter_scenarios(), {"vp5_mean"}, {}};
-  EXPECT_THAT(fault(plan), HasSubstr("no law vp5_mean"));
-}
-
-TEST(ConditionKeys, SetWhatTheySay) {
-  Conditions c;
-  double value = 2;
-  for (const std::string& key : condition_keys()) c = with_setting(c, {key, value++});
-  EXPECT_EQ(c.gain_per_s, 2);
-  EXPECT_EQ(c.rate_hz, 3);
-  EXPECT_EQ(c.steps, 4);
-  EXPECT_EQ(c.depth_factor, 5);
-  EXPECT_EQ(c.focal_factor, 6);
-  EXPECT_EQ(c.principal_u_px, 7);
-  EXPECT_EQ(c.principal_v_px, 8);
-  EXPECT_EQ(c.noise_px, 9);
-  EXPECT_EQ(c.seed, 10u);
-  EXPECT_EQ(c.delay_frames, 11);
-  ASSERT_TRUE(c.limits);
-  EXPECT_EQ(c.limits->linear_m_s, 12);
-  EXPECT_DOUBLE_EQ(c.limits->angular_rad_s, 13 * M_PI / 180);
-}
-
-TEST(ConditionKeys, RefuseWhatTheyCannotTake) {
-  const auto message = [](const char* key, double value) {
-    return test::message_of([&] { with_setting(Conditions{}, {key, value}); });
-  };
-  EXPECT_THAT(message("depth_facter", 1), HasSubstr("did you mean depth_factor?"));
-  EXPECT_THAT(message("delay_frames", 1.5), HasSubstr("no whole number"));
-  EXPECT_THAT(message("delay_frames", -1), HasSubstr("no whole number"));
-  EXPECT_THAT(message("depth_factor", 0), HasSubstr("depth_factor must be above 0"));
-}
-
-TEST(LabPlan, AModifiersSettingsComeAfterItsWords) {
-  const PlannedModifier modifier{"m", "kz2_d3", {{"depth_factor", 0.5}}, {}, {}};
-  const Conditions changed = with_modifier({}, modifier);
-  EXPECT_EQ(changed.depth_factor, 0.5);
-  EXPECT_EQ(changed.delay_frames, 3);
+  plan.helicopter.scenarios = {helicopter_h0(), helicopter_h0()};
+  EXPECT_THAT(fault(plan), HasSubstr("two of the scenarios are called H0"));
+  plan.helicopter.scenarios = {helicopter_h0()};
+  plan.helicopter.laws = {benchmark_helicopter_law("mejias"), benchmark_helicopter_law("mejias")};
+  EXPECT_THAT(fault(plan), HasSubstr("two of the laws are called mejias"));
+  plan.helicopter.laws.pop_back();
+  plan.helicopter.modifiers = {{"n1", "n1", {}, {}, {}}, {"n1", "n2", {}, {}, {}}};
+  EXPECT_THAT(fault(plan), HasSubstr("two of the modifiers are called n1"));
 }
 
 TEST(LabPlan, ATurnIsAboutTheGoalsOpticalAxis) {
@@ -94,13 +64,6 @@ TEST(LabPlan, ATurnIsAboutTheGoalsOpticalAxis) {
   const GoalFromCamera start = scenario.start_in_goal();
   EXPECT_LT(start.translation.norm(), 1e-15);
   EXPECT_TRUE(rotation_vector(start.rotation).isApprox(Eigen::Vector3d(0, 0, M_PI / 4), 1e-12));
-}
-
-TEST(LabPlan, ReadsTheLabelsOfLawsOnAHelicopter) {
-  EXPECT_EQ(helicopter_law_labelled("vp3_hh_mean"), std::pair(HelicopterVariant::Vp3Hh, Law::Mean));
-  EXPECT_EQ(helicopter_law_labelled("vp3_des"), std::pair(HelicopterVariant::Vp3, Law::Des));
-  EXPECT_EQ(helicopter_law_labelled("mejias"),
-            std::pair(HelicopterVariant::Mejias, Law::Decoupled));
 }
 
 }  // namespace

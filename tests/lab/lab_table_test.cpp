@@ -59,15 +59,19 @@ TEST(LabTable, SharesHaveWilsonsInterval) {
   EXPECT_EQ(share_of(0, 0).high, 1);
 }
 
-TEST(LabTable, BasinsMapsAndMarginsHaveTablesOfTheirOwn) {
+TEST(LabTable, BasinsMapsMarginsAndOrdersHaveTablesOfTheirOwn) {
   const LabPlan plan = test::small_plan();
   std::vector<MadeRun> runs{made(LabPart::Basin, "b", "cur", RunEnd::Converged, 0),
                             made(LabPart::Basin, "b", "cur", RunEnd::Collision, 1),
                             made(LabPart::Map, "m", "des", RunEnd::Diverged, 1, 0),
                             made(LabPart::Margin, "S0_tutorial", "cur", RunEnd::Converged),
-                            made(LabPart::Margin, "S0_tutorial", "cur", RunEnd::Converged)};
+                            made(LabPart::Margin, "S0_tutorial", "cur", RunEnd::Converged),
+                            made(LabPart::Order, "S0_tutorial", "des", RunEnd::Converged),
+                            made(LabPart::Order, "S0_tutorial", "des", RunEnd::Converged)};
   runs[3].run.metrics = {{"gain_limit_per_s", 60}};
   runs[4].run.metrics = {{"delay_limit_frames", 46}};
+  runs[5].run.metrics = {{"slope_to_screw", 2}};
+  runs[6].run.metrics = {{"slope_to_straight_line", 3}};
   EXPECT_THAT(csv(basin_table(plan, runs)), HasSubstr("\nb,cur,1,2,50,"));
   EXPECT_THAT(csv(basin_run_table(plan, runs)), HasSubstr("\nb,1,cur,collision,,3,35"));
   EXPECT_THAT(csv(map_table(plan, 0, runs)),
@@ -75,6 +79,8 @@ TEST(LabTable, BasinsMapsAndMarginsHaveTablesOfTheirOwn) {
                         "condition\ndes,2,0,diverged"));
   EXPECT_EQ(csv(margin_table(plan, runs)),
             "scenario,law,gain_limit_per_s,delay_limit_frames\nS0_tutorial,cur,60,46\n");
+  EXPECT_EQ(csv(order_table(plan, runs)),
+            "scenario,law,slope_to_screw,slope_to_straight_line\nS0_tutorial,des,2,3\n");
 }
 
 TEST(LabTable, RunsThatWereNotMadeAreLeftOut) {

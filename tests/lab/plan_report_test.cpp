@@ -16,6 +16,11 @@ TEST(PlanReport, HoldsEveryPartOfThePlan) {
     const std::string scenario = one.part == LabPart::Margin ? "S0_tutorial" : "s";
     runs.emplace_back(test::made_up_run(scenario, one.law, 2));
     if (one.part == LabPart::Margin) runs.back()->metrics = {{"gain_limit_per_s", 60}};
+    const bool is_screw =
+        one.part == LabPart::Order && one.job.id.find("screw") != std::string::npos;
+    if (one.part == LabPart::Order) {
+      runs.back()->metrics = {{is_screw ? "slope_to_screw" : "slope_to_straight_line", 2.5}};
+    }
   }
   runs[8]->end = RunEnd::Collision;  // of the map: x = 1, y = 0
   runs[12]->end = RunEnd::Diverged;  // of the basin, law cur
@@ -34,6 +39,9 @@ TEST(PlanReport, HoldsEveryPartOfThePlan) {
   ASSERT_EQ(report.margins.size(), 1u);
   EXPECT_EQ(report.margins[0].gain_per_s, 60);
   EXPECT_FALSE(report.margins[0].delay_frames);
+  ASSERT_EQ(report.orders.size(), 1u);
+  EXPECT_EQ(report.orders[0].law, "des");
+  EXPECT_EQ(report.orders[0].slope, 2.5);
 }
 
 }  // namespace

@@ -38,7 +38,9 @@ TEST(PlannedRuns, StandInTheOrderOfTheTables) {
                                           "basin/b/des/0",
                                           "basin/b/des/1",
                                           "margin/S0_tutorial/cur/gain",
-                                          "margin/S0_tutorial/cur/delay"};
+                                          "margin/S0_tutorial/cur/delay",
+                                          "order/S0_tutorial/des/screw",
+                                          "order/S0_tutorial/des/straight_line"};
   EXPECT_EQ(ids, expected);
 }
 
@@ -100,6 +102,16 @@ TEST(PlannedRuns, AMarginIsTheOneOfItsSetup) {
   EXPECT_EQ(gain.metrics[0].first, "gain_limit_per_s");
   EXPECT_NEAR(*gain.metrics[0].second, 60, 0.05);
   EXPECT_EQ(runs[16].job.run().metrics.at(0).first, "delay_limit_frames");
+}
+
+TEST(PlannedRuns, AnOrderIsThatOfItsLaw) {
+  const auto runs = planned_runs(test::small_plan(), "");
+  const LabRun screw = runs[17].job.run();
+  ASSERT_EQ(screw.metrics.size(), 1u);
+  EXPECT_EQ(screw.metrics[0].first, "slope_to_screw");
+  EXPECT_NEAR(screw.metrics[0].second.value_or(0), 2.004, 6e-4);  // three printed digits
+  EXPECT_EQ(screw.end, RunEnd::Converged);
+  EXPECT_EQ(runs[18].job.run().metrics.at(0).first, "slope_to_straight_line");
 }
 
 }  // namespace

@@ -100,6 +100,36 @@ TEST(RunMetrics, MeasuresImagePathsAgainstTheirChords) {
   EXPECT_FALSE(out.image_ratio);  // no chord
 }
 
+TEST(RunMetrics, DeviationIsAcrossTheChordWhateverItsDirection) {
+  CameraSetup setup = two_per_second();
+  setup.scenario.points_m = {{0, 0, 0}};
+  const auto at_pixel = [&](double u, double v) {  // of the point, from the centre
+    return step_at(setup, 0, {-u * .75 / 600, -v * .75 / 600, 0});
+  };
+  for (const Eigen::Vector2d& start : {Eigen::Vector2d(30, 40), Eigen::Vector2d(-40, 30),
+                                       Eigen::Vector2d(-30, -40), Eigen::Vector2d(40, -30)}) {
+    const Eigen::Vector2d across = Eigen::Vector2d(-start.y(), start.x()) / 50;
+    for (const double off_px : {10., -15.}) {
+      // A quarter of the way, so that along and across the chord are not alike.
+      const Eigen::Vector2d aside = .75 * start + off_px * across;
+      const RunMetrics metrics = metrics_of(
+          setup, {at_pixel(start.x(), start.y()), at_pixel(aside.x(), aside.y()), at_pixel(0, 0)});
+      EXPECT_NEAR(metrics.image_deviation_px, std::abs(off_px), 1e-11);
+    }
+  }
+}
+
+TEST(RunMetrics, TheFinalAngleIsThatAboutAnyAxis) {
+  const CameraSetup setup = two_per_second();
+  RunStep step = step_at(setup, 0, {0, 0, 0});
+  for (const Eigen::Vector3d& turn :
+       {Eigen::Vector3d(.5, 0, 0), Eigen::Vector3d(0, .5, 0), Eigen::Vector3d(0, 0, .5),
+        Eigen::Vector3d(.3, -.4, 1.2), Eigen::Vector3d(2, 2, -1)}) {
+    step.goal_from_camera.rotation = rotation_from_vector(turn);
+    EXPECT_NEAR(metrics_of(setup, {step}).final_angle_rad, turn.norm(), 1e-14);
+  }
+}
+
 TEST(RunMetrics, MeasuresSpeedEffortAndSaturation) {
   const CameraSetup setup = two_per_second();
   std::vector<RunStep> steps{step_at(setup, 0, {0, 0, 0}), step_at(setup, 1, {0, 0, 0})};
@@ -134,6 +164,15 @@ TEST(RunMetrics, SteadyErrorIsThatOfTheLastThird) {
     steps.push_back(step_at(setup, int(steps.size()), {0, 0, z}));
   }
   EXPECT_NEAR(metrics_of(setup, steps).steady_position_rms_m, .05 / std::sqrt(2), 1e-15);
+}
+
+TEST(RunMetrics, NoStepsGiveNoInfinities) {
+  const RunMetrics metrics = metrics_of(two_per_second(), {});
+  EXPECT_EQ(metrics.smallest_margin_px, 0);
+  EXPECT_EQ(metrics.steady_position_rms_m, 0);
+  EXPECT_EQ(
+      metrics_of(two_per_second(), {step_at(two_per_second(), 0, {1, 0, 0})}).steady_position_rms_m,
+      0);  // the last third of one step is none
 }
 
 TEST(RunMetrics, GiveStepsInSecondsToo) {

@@ -16,7 +16,10 @@ inline LabPlan small_plan() {
   plan.maps = {{"m", "S0_tutorial", {"des"}, {"depth_factor", {1, 2}}, {"delay_frames", {0, 1}}}};
   plan.basins = {{"b", "S0_tutorial", {}, {StartPose{{0, 0, -0.1}, {0, 0, 0}}, StartPose{}}}};
   plan.margins = {{"S0_tutorial", {"cur"}, true, true}};
-  plan.helicopter = {{helicopter_h0()}, {"vp3_hh_des"}, {"kz2"}};
+  plan.orders = {{"S0_tutorial", {"des"}}};
+  plan.helicopter.scenarios = {helicopter_h0()};
+  plan.helicopter.laws = {benchmark_helicopter_law("vp3_hh_des")};
+  plan.helicopter.modifiers = {{"kz2", "kz2", {}, {}, {}}};
   return plan;
 }
 

@@ -37,6 +37,18 @@ TEST(StartPoses, SeeTheWholeTargetFromInsideTheBox) {
   EXPECT_NEAR(rolled, 100, 40);  // roll is uniform in +-180 deg: half beyond 90 deg, 5 sigma
 }
 
+// The image cuts all directions alike here: where the box is a point, the axis leans to all sides.
+TEST(StartPoses, LeanToAllSides) {
+  StartBox box;
+  box.half_size_m = {0, 0, 0};
+  int quadrants[4] = {};
+  for (const StartPose& pose : start_poses(scenario(), {}, box, 3, 400)) {
+    const Eigen::Vector3d axis = started_from(scenario(), pose).start_in_goal().rotation.col(2);
+    ++quadrants[(axis.x() > 0 ? 1 : 0) + (axis.y() > 0 ? 2 : 0)];
+  }
+  for (const int count : quadrants) EXPECT_NEAR(count, 100, 44);  // 5 sigma of 400 draws
+}
+
 TEST(StartPoses, RepeatWithTheirSeed) {
   const std::vector<StartPose> few = start_poses(scenario(), {}, {}, 7, 5);
   const std::vector<StartPose> more = start_poses(scenario(), {}, {}, 7, 9);

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +13,7 @@
 
 #include "kestrel/geometry/rotation.hpp"
 
+#include "servo/law_bench.hpp"
 #include "support/random.hpp"
 
 namespace kestrel {
@@ -276,6 +280,13 @@ TEST(HelicopterLaw, FourFreedomsOfAForwardCameraAreConfounded) {
   EXPECT_NEAR(four[1], 0.446, 5e-4);
   EXPECT_NEAR(four[5] * 180 / M_PI, 4.8, 0.05);
   EXPECT_NEAR(spread(Variant::Vp3)[1], 0.0042, 5e-5);
+  // drop6 does not tell tilt from height either: 107 times as much downwards; the rest as vp4, but
+  // for the lever of 0.1 m by which that tilt moves the camera forward.
+  const Vector6d six = spread(Variant::Drop6);
+  EXPECT_NEAR(six[0] / four[0], 1.039, 1e-3);
+  EXPECT_NEAR(six[1] / four[1], 1, 1e-5);
+  EXPECT_NEAR(six[2] / four[2], 107.0, 0.01);
+  EXPECT_NEAR(six[5] / four[5], 1, 1e-5);
 }
 
 TEST(HelicopterLaw, NonsenseIsARefusalWithItsReason) {
@@ -305,6 +316,41 @@ TEST(HelicopterLaw, NonsenseIsARefusalWithItsReason) {
     input = good;
     input.now_from_then = CameraMotion{Eigen::Matrix3d::Identity(), {0, 0, -6}};
     EXPECT_EQ(refusal(input, variant), LawRefusal::Singular);
+  }
+}
+
+// What the law inside refuses, whatever law and variant: with its reason, and no twist.
+TEST(HelicopterLaw, NonsenseOfTheImageIsARefusalOfEveryLaw) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  HelicopterLawInput good;
+  good.camera = test::input_at(test::kS1);
+  good.body_from_camera = forward({0.3, 0, 0.1});
+  const auto on_a_line = [](std::vector<Feature>& points) {
+    for (int i = 0; i < 4; ++i) points[std::size_t(i)] = {{0.1 * i - 0.15, 0.05 * i}, 1};
+  };
+  using Change = std::function<void(LawInput&)>;
+  const std::vector<std::pair<LawRefusal, Change>> broken = {
+      {LawRefusal::FewPoints, [](LawInput& in) { in.measured.resize(2), in.desired.resize(2); }},
+      {LawRefusal::NotFinite, [&](LawInput& in) { in.measured[2].at.y = nan; }},
+      {LawRefusal::Depth, [&](LawInput& in) { in.desired[1].depth_m = nan; }},
+      {LawRefusal::Depth, [](LawInput& in) { in.measured[1].depth_m = 0; }},
+      {LawRefusal::Depth, [](LawInput& in) { in.measured[3].depth_m = -1; }},
+      {LawRefusal::Coincident, [](LawInput& in) { in.measured.assign(4, in.measured[0]); }},
+      {LawRefusal::Coincident, [](LawInput& in) { in.desired.assign(4, in.desired[0]); }},
+      {LawRefusal::Collinear, [&](LawInput& in) { on_a_line(in.measured); }},
+      {LawRefusal::Collinear, [&](LawInput& in) { on_a_line(in.desired); }}};
+  for (const Variant variant : all_helicopter_variants()) {
+    for (const Law law : all_laws()) {
+      for (const auto& [refusal, change] : broken) {
+        HelicopterLawInput input = good;
+        change(input.camera);
+        HelicopterLawOptions options = with(variant, law);
+        options.law.max_condition = std::numeric_limits<double>::infinity();
+        const HelicopterLawAnswer answer = helicopter_law(input, options);
+        EXPECT_FALSE(answer.twist) << name(variant) << ' ' << name(law);
+        EXPECT_EQ(answer.refusal, refusal) << name(variant) << ' ' << name(law);
+      }
+    }
   }
 }
 

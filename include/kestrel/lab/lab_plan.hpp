@@ -1,11 +1,11 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "kestrel/lab/camera_run.hpp"
-#include "kestrel/lab/helicopter_benchmark.hpp"
+#include "kestrel/lab/helicopter_plan.hpp"
+#include "kestrel/lab/plan_modifier.hpp"
 #include "kestrel/lab/start_poses.hpp"
 
 namespace kestrel {
@@ -14,18 +14,6 @@ namespace kestrel {
 struct PlannedLaw {
   std::string label;
   LawOptions options;
-};
-
-/// A key of the conditions and the value it takes.
-using ConditionSetting = std::pair<std::string, double>;
-
-/// A change of the conditions, on some scenarios and for some laws.
-struct PlannedModifier {
-  std::string name;
-  std::string words;                       // as modified() reads them, applied first; may be empty
-  std::vector<ConditionSetting> settings;  // applied after the words, in order
-  std::vector<std::string> scenarios;      // empty: on all
-  std::vector<std::string> laws;           // empty: for all
 };
 
 /// A parameter of a map and the values it takes: a key of the conditions, or "rz_deg", the start's
@@ -60,19 +48,14 @@ struct PlannedMargin {
   bool delay = true;
 };
 
-/// Runs on the helicopter: each law in each scenario, without and with each modifier.
-struct PlannedHelicopter {
-  std::vector<HelicopterScenario> scenarios;
-  std::vector<std::string> laws;       // "vp4_des": variant and law inside
-  std::vector<std::string> modifiers;  // as modified() reads them
+/// Orders of accuracy (lab/order_of_accuracy) at a scenario's goal.
+struct PlannedOrder {
+  std::string scenario;
+  std::vector<std::string> laws;  // empty: all
 };
 
-/// A law on the helicopter by its label ("vp3_hh_mean", "mejias"). Throws std::invalid_argument
-/// when there is none.
-std::pair<HelicopterVariant, Law> helicopter_law_labelled(const std::string& label);
-
 /// All that a comparison runs: each law on each scenario, without and with the modifiers that
-/// apply there, and beside that maps, basins and margins.
+/// apply there, and beside that maps, basins, margins and orders of accuracy.
 struct LabPlan {
   std::string title;
   std::vector<PlannedLaw> laws;
@@ -85,6 +68,7 @@ struct LabPlan {
   std::vector<PlannedMap> maps;
   std::vector<PlannedBasin> basins;
   std::vector<PlannedMargin> margins;
+  std::vector<PlannedOrder> orders;
   PlannedHelicopter helicopter{};
   /// Settled runs of maps and basins end when |e| has stayed below this; 0: they run all steps.
   double settled_error = 1e-5;
@@ -99,18 +83,6 @@ const Scenario& scenario_named(const LabPlan& plan, const std::string& name);
 
 /// The laws of these labels in the plan's order; all when there are no labels.
 std::vector<PlannedLaw> laws_labelled(const LabPlan& plan, const std::vector<std::string>& labels);
-
-/// The keys of conditions that a setting may take: gain_per_s, rate_hz, steps, depth_factor,
-/// focal_factor, principal_u_px, principal_v_px, noise_px, seed, delay_frames, limit_linear_m_s,
-/// limit_angular_deg_s.
-const std::vector<std::string>& condition_keys();
-
-/// The conditions with one key changed. Throws std::invalid_argument for a key that is none, a
-/// fraction where a whole number is wanted, and a value out of range.
-Conditions with_setting(Conditions conditions, const ConditionSetting& setting);
-
-/// The conditions as the modifier leaves them. Throws as with_setting and modified().
-Conditions with_modifier(const Conditions& conditions, const PlannedModifier& modifier);
 
 /// The scenario with its start at the goal, turned by this angle about the optical axis.
 Scenario turned(Scenario scenario, double rz_deg);

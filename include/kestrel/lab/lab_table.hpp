@@ -52,4 +52,7 @@ Table map_table(const LabPlan& plan, std::size_t map, const std::vector<MadeRun>
 /// A row for each scenario and law: gain_limit_per_s, delay_limit_frames.
 Table margin_table(const LabPlan& plan, const std::vector<MadeRun>& runs);
 
+/// A row for each scenario and law: slope_to_screw, slope_to_straight_line (lab/order_of_accuracy).
+Table order_table(const LabPlan& plan, const std::vector<MadeRun>& runs);
+
 }  // namespace kestrel

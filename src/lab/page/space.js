@@ -12,6 +12,17 @@ function projection(up, ahead, azimuth, elevation) {
   return p => [dot(right, p), dot(upwards, p)];
 }
 
+// Gives a word [w px wide] the first of the places [middle, baseline] where it meets no other.
+function freeWords() {
+  const taken = [];
+  return (w, places) => {
+    const free = ([x, y]) => taken.every(t => Math.abs(t[0] - x) > (t[2] + w) / 2 || Math.abs(t[1] - y) > 12);
+    const [x, y] = places.find(free) || places[places.length - 1];
+    taken.push([x, y, w]);
+    return `x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="middle"`;
+  };
+}
+
 const isHelicopter = scene => scene && scene.kind === "helicopter";
 
 // runs: [{law, look, points: [[x, y, z]...], fits}] in the scene's space.
@@ -30,16 +41,18 @@ function spacePlot(scene, runs, turn, w = roomy(), h = 420) {
     inside += `<path class="tg" d="M${scene.points.map(place).join("L")}Z"/>`;
   for (const r of runs)
     inside += `<path data-law="${r.law}" ${look(r.look)} d="${r.points.map((p, i) => (i ? "L" : "M") + place(p)).join("")}"/>`;
+  const word = freeWords();
   if (scene) for (const [f, name] of [[scene.start, "start"], [scene.goal, "goal"]]) {
     if (!f.at.every(finite)) continue;
     const o = see(f.at), x = ax(o[0]), y = ay(o[1]);
     f.axes.forEach((a, i) => {
       const q = see(a), tip = [x + 34 * q[0], y - 34 * q[1]];
       inside += `<path class="mk" d="M${x.toFixed(1)} ${y.toFixed(1)}L${tip[0].toFixed(1)} ${tip[1].toFixed(1)}"/>`;
-      if (Math.hypot(...q) > 0.3) inside += `<text class="tx" x="${(x + 42 * q[0]).toFixed(1)}" y="${
-        (y - 42 * q[1] + 4).toFixed(1)}" text-anchor="middle">${"xyz"[i]}</text>`;
+      const out = [42, 56, 70].map(r => [x + r * q[0], y - r * q[1] + 4]);
+      if (Math.hypot(...q) > 0.3) inside += `<text class="tx" ${word(7, out)}>${"xyz"[i]}</text>`;
     });
-    inside += `<text class="tx en" x="${(x + 8).toFixed(1)}" y="${(y + 18).toFixed(1)}">${name}</text>`;
+    const wide = 6.9 * name.length, rows = [18, 32, 46, 60].map(d => [x + 8 + wide / 2, y + d]);
+    inside += `<text class="tx en" ${word(wide, rows)}>${name}</text>`;
   }
   const wanted = w / 6 * unit, power = 10 ** Math.floor(Math.log10(wanted));
   const bar = power * (wanted / power < 2 ? 1 : wanted / power < 5 ? 2 : 5);

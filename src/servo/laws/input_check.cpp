@@ -72,21 +72,6 @@ bool uses_depths(Law law) {
   }
 }
 
-bool uses_area_or_homography(Law law) {
-  switch (law) {
-    case Law::CurZarea:
-    case Law::CurZhomog:
-    case Law::Partition:
-    case Law::TwoAndHalfD:
-    case Law::Homog:
-    case Law::Moments:
-    case Law::Decoupled:
-      return true;
-    default:
-      return false;
-  }
-}
-
 bool are_in_front(const Points& points) {
   return std::all_of(points.begin(), points.end(),
                      [](const Feature& f) { return f.depth_m >= kSmallestDepth_m; });
@@ -118,8 +103,8 @@ LawRefusal refusal_of(const LawInput& input, Law law) {
   if (!are_at_three_places(input.measured) || !are_at_three_places(input.desired)) {
     return LawRefusal::Coincident;
   }
-  if (uses_area_or_homography(law) &&
-      (on_a_line(input.desired, kOnALine) || on_a_line(input.measured, kOnALine))) {
+  // Nor is a turn about the line seen, nor a pose fixed; of some laws' features there are none.
+  if (on_a_line(input.desired, kOnALine) || on_a_line(input.measured, kOnALine)) {
     return LawRefusal::Collinear;
   }
   if (input.basis.cols() > 0 && input.basis.isZero(0)) return LawRefusal::Unreachable;
