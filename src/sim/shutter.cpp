@@ -12,7 +12,7 @@ namespace {
 constexpr double kNear_m = 3;
 
 /// Fastest motion in the picture, px/s, but for what turns about the optical axis does far out.
-double fastest_px_s(const CameraMotion& motion, const Camera& camera) {
+double fastest_px_s(const CameraInFlight& motion, const Camera& camera) {
   const VibrationOptions& v = motion.vibration;
   const double shaking_rad_s =
       v.amplitude_rad.norm() * 2 * M_PI * v.frequency_hz * (1 + 2 * v.second_share);
@@ -36,7 +36,7 @@ void ShutterOptions::check() const {
   require(max_steps >= 1 && max_steps <= 1000, "max_steps: must be within [1, 1000]");
 }
 
-CameraAt camera_at(const CameraMotion& motion, double stamp_s, double time_s) {
+CameraAt camera_at(const CameraInFlight& motion, double stamp_s, double time_s) {
   const double ahead_s = time_s - stamp_s;
   Transform<frame::World, frame::Body> body = motion.vehicle.world_from_body;
   body.translation += motion.vehicle.velocity_m_s * ahead_s;
@@ -45,7 +45,7 @@ CameraAt camera_at(const CameraMotion& motion, double stamp_s, double time_s) {
   return {time_s, body * motion.body_from_camera};
 }
 
-Shot shot(const CameraMotion& motion, double stamp_s, const Camera& camera,
+Shot shot(const CameraInFlight& motion, double stamp_s, const Camera& camera,
           const ShutterOptions& options) {
   const double speed_px_s = fastest_px_s(motion, camera);
   const int rows = camera.parameters().height;

@@ -24,8 +24,8 @@ Camera small_camera() {
   return Camera(p);
 }
 
-CameraMotion hovering_at_five() {
-  CameraMotion motion;
+CameraInFlight hovering_at_five() {
+  CameraInFlight motion;
   motion.vehicle.world_from_body.translation = {-5, 0, 0};
   motion.body_from_camera = forward_mount();
   return motion;
@@ -45,7 +45,7 @@ TEST(Shutter, TakesOneViewOfWhatStandsStill) {
 }
 
 TEST(Shutter, ViewsAreSpreadOverTheExposure) {
-  CameraMotion motion = hovering_at_five();
+  CameraInFlight motion = hovering_at_five();
   motion.vehicle.rate_rad_s = {0, 0, 1};
   const ShutterOptions options{0.02, 0, 0.5, 100};
   const Shot shot_of = shot(motion, 1.0, small_camera(), options);
@@ -61,7 +61,7 @@ TEST(Shutter, ViewsAreSpreadOverTheExposure) {
 }
 
 TEST(Shutter, RowsAreReadOneAfterTheOther) {
-  CameraMotion motion = hovering_at_five();
+  CameraInFlight motion = hovering_at_five();
   motion.vehicle.velocity_m_s = {0, 3, 0};
   const Shot bands = shot(motion, 0, small_camera(), {0, 0.03, 0.5, 10});
   ASSERT_EQ(bands.size(), 9u);  // 1/s times 150 px, 30 ms
@@ -76,7 +76,7 @@ TEST(Shutter, RowsAreReadOneAfterTheOther) {
 
 // A turn of 1 rad/s for 20 ms is 3 px: a view blurred by a box of 3 px along the rows.
 TEST(Shutter, BlursAsTheMotionGoes) {
-  CameraMotion motion = hovering_at_five();
+  CameraInFlight motion = hovering_at_five();
   const Camera camera = small_camera();
   const Renderer renderer(poster_scene(), camera);
   const cv::Mat sharp = renderer.expose(shot(motion, 0, camera, {}));
@@ -92,7 +92,7 @@ TEST(Shutter, BlursAsTheMotionGoes) {
 }
 
 TEST(Shutter, ShakesWithTheRotor) {
-  CameraMotion motion = hovering_at_five();
+  CameraInFlight motion = hovering_at_five();
   motion.vibration.amplitude_rad = {0.002, 0.002, 0.002};
   const CameraAt a = camera_at(motion, 0, 0.005);
   const Eigen::Vector3d turn =

@@ -19,19 +19,19 @@ struct ShutterOptions {
 };
 
 /// A vehicle and its camera around the stamp of a frame.
-struct CameraMotion {
+struct CameraInFlight {
   VehicleMotion vehicle;  // at the stamp; carried on with its velocity and rates
   Mount body_from_camera;
   VibrationOptions vibration;
 };
 
 /// The camera at this time, near the stamp.
-CameraAt camera_at(const CameraMotion& motion, double stamp_s, double time_s);
+CameraAt camera_at(const CameraInFlight& motion, double stamp_s, double time_s);
 
 /// The views a frame with this stamp is made of: one, when nothing moves or the shutter is quick.
 /// How many follows from the turning of the camera, rotor vibration included, and from its speed
 /// past things 3 m away.
-Shot shot(const CameraMotion& motion, double stamp_s, const Camera& camera,
+Shot shot(const CameraInFlight& motion, double stamp_s, const Camera& camera,
           const ShutterOptions& options);
 
 }  // namespace kestrel
