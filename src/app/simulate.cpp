@@ -94,7 +94,7 @@ Prepared prepare(Task task, const Scene& scene) {
 
 }  // namespace
 
-RunResult simulate(const SimulateArguments& a) {
+SimulatedFlight fly(const SimulateArguments& a) {
   Section file = Section::load(a.task);
   Experiment experiment = read_experiment(file);
   Simulation simulation = read_simulation(file.child("simulation"));
@@ -102,6 +102,8 @@ RunResult simulate(const SimulateArguments& a) {
   simulation.world.camera = experiment.task.camera;
   simulation.world.body_from_camera = experiment.task.body_from_camera;
   if (a.seed) simulation.world.seed = std::uint64_t(*a.seed);
+  simulation.world.start =
+      scattered(simulation.world.start, simulation.scatter, simulation.world.seed);
   if (a.duration_s) {
     simulation.world.frames = std::int64_t(std::ceil(*a.duration_s * simulation.world.rate_hz));
   }
@@ -116,11 +118,15 @@ RunResult simulate(const SimulateArguments& a) {
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
   std::vector<FlightSample> flight;
+  double path_m = 0;
+  Eigen::Vector3d before_m = world.motion().world_from_body.translation;
   const auto watch = [&](const Frame& frame, const Step& step,
                          LogRow& row) -> std::optional<std::string> {
     const auto goal = goal_in_world(task, world);
     flight.push_back(sample(world, frame, step.track.found(), goal));
     row.extra = truth(world, flight.back(), goal);
+    path_m += (world.motion().world_from_body.translation - before_m).norm();
+    before_m = world.motion().world_from_body.translation;
     trajectory.write(tum_line(frame.stamp_s, world.motion().world_from_body));
     const auto end = ended(flight, simulation.goal);
     if (!end) return std::nullopt;
@@ -135,10 +141,13 @@ RunResult simulate(const SimulateArguments& a) {
              "Simulated flight: " + a.task.stem().string(), simulate_sections);
   if (end.broken || metrics.end != FlightEnd::Converged) result.exit_code = 1;
   if (interrupted()) result.exit_code = kInterrupted;
-  return result;
+  return {result, metrics, path_m};
 }
 
+RunResult simulate(const SimulateArguments& arguments) { return fly(arguments).run; }
+
 int run(const SimulateArguments& arguments) {
+  if (arguments.seeds) return fly_seeds(arguments);
   const RunResult result = simulate(arguments);
   print_result(result);
   return result.exit_code;

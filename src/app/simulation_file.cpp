@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 #include <stdexcept>
 
 namespace kestrel::app {
@@ -16,6 +17,18 @@ HelicopterState read_start(const Section& section, HelicopterState start) {
   }
   start.yaw = section.number("heading_deg", start.yaw / kDegree) * kDegree;
   return start;
+}
+
+Scatter read_scatter(const Section& section) {
+  Scatter s;
+  if (section.has("scatter_ned_m")) {
+    const auto p = section.numbers("scatter_ned_m", 3);
+    s.position_ned_m = {p[0], p[1], p[2]};
+  }
+  s.heading_rad = section.number("scatter_heading_deg", 0) * kDegree;
+  if (s.position_ned_m.minCoeff() < 0) section.fail("scatter_ned_m", "must not be negative");
+  if (s.heading_rad < 0) section.fail("scatter_heading_deg", "must not be negative");
+  return s;
 }
 
 HoverGoal read_pass(const Section& section, HoverGoal goal) {
@@ -126,6 +139,16 @@ void checked(const Section& section, const std::function<void()>& check) {
 
 }  // namespace
 
+HelicopterState scattered(HelicopterState start, const Scatter& scatter, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto within = [&](double size) {  // the same on every machine, unlike the library's
+    return size * (double(random() >> 11) * 0x1p-52 - 1);
+  };
+  for (int i = 0; i < 3; ++i) start.position_m[i] += within(scatter.position_ned_m[i]);
+  start.yaw += within(scatter.heading_rad);
+  return start;
+}
+
 Simulation read_simulation(const Section& section) {
   Simulation s;
   s.world.rate_hz = section.number("rate_hz", s.world.rate_hz);
@@ -139,6 +162,7 @@ Simulation read_simulation(const Section& section) {
   s.world.command_timeout_s = section.number("command_timeout_s", s.world.command_timeout_s);
   if (const auto start = section.child_if("start")) {
     s.world.start = read_start(*start, s.world.start);
+    s.scatter = read_scatter(*start);
   }
   if (const auto pass = section.child_if("pass")) s.goal = read_pass(*pass, s.goal);
   s.world.vehicle = read_vehicle(section);

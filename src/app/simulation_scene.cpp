@@ -86,6 +86,11 @@ SceneOptions read_scene(const Section& simulation) {
   SceneOptions s;
   s.surface = simulation.choice<Surface>(
       "surface", {{"poster", Surface::Poster}, {"wall", Surface::Wall}}, s.surface);
+  s.place = simulation.choice<Place>("target_on",
+                                     {{"wall", Place::Wall}, {"ground", Place::Ground}}, s.place);
+  if (s.place == Place::Ground && s.surface == Surface::Wall) {
+    simulation.fail("surface", "`wall` goes with `target_on: wall`");
+  }
   if (simulation.has("texture")) {
     if (s.surface == Surface::Wall) simulation.fail("texture", "goes with `surface: poster`");
     s.texture = simulation.path("texture");
@@ -119,6 +124,10 @@ Scene scene_of(SceneOptions options, double target_width_m, double target_height
     scene.planes.back().texture = cut_from_wall(scene, target_width_m, target_height_m);
   }
   scene.planes.back().motion = options.target_motion;
+  if (options.place == Place::Ground) {
+    scene.planes.back().world_from_target = scene.planes.front().world_from_target;
+    // The ground's own axes: x east, y south, z down.
+  }
   scene.target = scene.planes.size() - 1;
   for (const ThingOptions& thing : options.things) scene.planes.push_back(plane_of(thing));
   scene.check();

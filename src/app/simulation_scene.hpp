@@ -26,10 +26,17 @@ enum class Surface {
   Wall,    // a part of the facade, as the facade is there
 };
 
+/// Which way the target faces.
+enum class Place {
+  Wall,    // south, at the origin of the world
+  Ground,  // up, 15 m south of the wall, its upper edge to the north
+};
+
 /// What a simulated camera sees.
 struct SceneOptions {
   WallOptions wall;
   Surface surface = Surface::Poster;
+  Place place = Place::Wall;
   std::filesystem::path texture;  // of the poster; empty: the built-in one
   PlaneMotion target_motion{};
   std::vector<ThingOptions> things;  // back to front; all before the target
