@@ -47,10 +47,17 @@ struct ServoArguments {
   RunArguments run;
 };
 
+/// Whole numbers from first to last, both included.
+struct SeedRange {
+  std::int64_t first = 1;
+  std::int64_t last = 1;
+};
+
 struct SimulateArguments {
   std::filesystem::path task;
   std::optional<double> duration_s;
   std::optional<std::int64_t> seed;
+  std::optional<SeedRange> seeds;
   std::string sink;
   RunArguments run;
 };

@@ -1,3 +1,4 @@
+#include <charconv>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -81,11 +82,29 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   add_run_options(*verb, a->run);
 }
 
+SeedRange seed_range(const std::string& text) {
+  SeedRange range;
+  const auto* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, range.first);
+  const bool has_last = first.ec == std::errc() && first.ptr != end && *first.ptr == '-';
+  const auto last = has_last ? std::from_chars(first.ptr + 1, end, range.last) : first;
+  if (!has_last || last.ec != std::errc() || last.ptr != end || range.first < 0 ||
+      range.last < range.first) {
+    throw CLI::ValidationError("--seeds", "'" + text + "': write FIRST-LAST, for instance 1-20");
+  }
+  return range;
+}
+
 void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
   verb->add_option("TASK", a->task, "Task file with a section 'simulation'")->required();
   verb->add_option("--duration", a->duration_s, "Longest flight, s (default: the task's)");
-  verb->add_option("--seed", a->seed, "Seed of the image noise (default: the task's)");
+  auto* seed = verb->add_option("--seed", a->seed,
+                                "Seed of start, noise, wind and sensors (default: the task's)");
+  verb->add_option_function<std::string>(
+          "--seeds", [a](const std::string& text) { a->seeds = seed_range(text); },
+          "Fly once for each seed, FIRST-LAST, and make a table")
+      ->excludes(seed);
   verb->add_option("--sink", a->sink, "Send the commands there too: udp://HOST:PORT");
   add_run_options(*verb, a->run);
 }

@@ -17,9 +17,10 @@
 namespace kestrel::app {
 namespace {
 
-/// The pose of the helicopter from which the levelled camera sees the target as the goal wants it.
-Transform<frame::World, frame::Body> goal_in_world(const Task& task, const WorldOptions& world) {
-  return world.world_from_target * task.goal.inverse() * task.body_from_camera.inverse();
+/// The pose of the helicopter from which the levelled camera sees the target, where it is now, as
+/// the goal wants it.
+Transform<frame::World, frame::Body> goal_in_world(const Task& task, const World& world) {
+  return world.world_from_target() * task.goal.inverse() * task.body_from_camera.inverse();
 }
 
 double yaw_of(const Eigen::Matrix3d& world_from_body) {
@@ -31,8 +32,9 @@ FlightSample sample(const World& world, const Frame& frame, bool seen,
                     const Transform<frame::World, frame::Body>& goal) {
   FlightSample s;
   s.stamp_s = frame.stamp_s;
-  s.position_error_m = (world.state().position_m - goal.translation).norm();
-  s.heading_error_rad = wrap_angle(world.state().yaw - yaw_of(goal.rotation));
+  const Transform<frame::World, frame::Body>& at = world.motion().world_from_body;
+  s.position_error_m = (at.translation - goal.translation).norm();
+  s.heading_error_rad = wrap_angle(yaw_of(at.rotation) - yaw_of(goal.rotation));
   s.target_distance_m = world.camera_from_target().inverse().translation.z() * -1;
   s.seen = seen;
   return s;
@@ -41,10 +43,12 @@ FlightSample sample(const World& world, const Frame& frame, bool seen,
 /// Values of truth_columns(), in their order.
 std::vector<double> truth(const World& world, const FlightSample& s,
                           const Transform<frame::World, frame::Body>& goal) {
-  const HelicopterState& h = world.state();
-  const Eigen::Matrix3d turn = goal.rotation.transpose() * pose(h).rotation;
-  return {h.position_m.x(), h.position_m.y(),  h.position_m.z(),   h.roll,
-          h.pitch,          wrap_angle(h.yaw), s.position_error_m, rotation_vector(turn).norm()};
+  const Transform<frame::World, frame::Body>& at = world.motion().world_from_body;
+  const Attitude a = attitude(at);
+  const Eigen::Matrix3d turn = goal.rotation.transpose() * at.rotation;
+  return {
+      at.translation.x(), at.translation.y(),          at.translation.z(), a.roll, a.pitch, a.yaw,
+      s.position_error_m, rotation_vector(turn).norm()};
 }
 
 /// One line of a TUM trajectory: time, position, quaternion x y z w of Body in World.
@@ -90,34 +94,40 @@ Prepared prepare(Task task, const Scene& scene) {
 
 }  // namespace
 
-RunResult simulate(const SimulateArguments& a) {
+SimulatedFlight fly(const SimulateArguments& a) {
   Section file = Section::load(a.task);
   Experiment experiment = read_experiment(file);
   Simulation simulation = read_simulation(file.child("simulation"));
   file.done();
   simulation.world.camera = experiment.task.camera;
   simulation.world.body_from_camera = experiment.task.body_from_camera;
-  simulation.wall.poster_width_m = experiment.task.target_width_m;
-  simulation.wall.poster_height_m = experiment.task.target_height_m;
   if (a.seed) simulation.world.seed = std::uint64_t(*a.seed);
+  simulation.world.start =
+      scattered(simulation.world.start, simulation.scatter, simulation.world.seed);
   if (a.duration_s) {
     simulation.world.frames = std::int64_t(std::ceil(*a.duration_s * simulation.world.rate_hz));
   }
-  const Scene scene = scene_of(simulation);
+  const Scene scene =
+      scene_of(simulation.scene, experiment.task.target_width_m, experiment.task.target_height_m);
   World world(scene, simulation.world);
-  const auto goal = goal_in_world(experiment.task, simulation.world);
-  Prepared prepared = prepare(experiment.task, scene);
+  const Task task = experiment.task;  // its goal is that of the target, not of the template
+  Prepared prepared = prepare(task, scene);
   const auto outside = open_sink(a.sink);
   TeeSink sink(world, *outside);
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
   std::vector<FlightSample> flight;
+  double path_m = 0;
+  Eigen::Vector3d before_m = world.motion().world_from_body.translation;
   const auto watch = [&](const Frame& frame, const Step& step,
                          LogRow& row) -> std::optional<std::string> {
+    const auto goal = goal_in_world(task, world);
     flight.push_back(sample(world, frame, step.track.found(), goal));
     row.extra = truth(world, flight.back(), goal);
-    trajectory.write(tum_line(frame.stamp_s, pose(world.state())));
+    path_m += (world.motion().world_from_body.translation - before_m).norm();
+    before_m = world.motion().world_from_body.translation;
+    trajectory.write(tum_line(frame.stamp_s, world.motion().world_from_body));
     const auto end = ended(flight, simulation.goal);
     if (!end) return std::nullopt;
     return name(*end);
@@ -131,10 +141,13 @@ RunResult simulate(const SimulateArguments& a) {
              "Simulated flight: " + a.task.stem().string(), simulate_sections);
   if (end.broken || metrics.end != FlightEnd::Converged) result.exit_code = 1;
   if (interrupted()) result.exit_code = kInterrupted;
-  return result;
+  return {result, metrics, path_m};
 }
 
+RunResult simulate(const SimulateArguments& arguments) { return fly(arguments).run; }
+
 int run(const SimulateArguments& arguments) {
+  if (arguments.seeds) return fly_seeds(arguments);
   const RunResult result = simulate(arguments);
   print_result(result);
   return result.exit_code;

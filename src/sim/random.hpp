@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace kestrel::sim_detail {
@@ -31,6 +32,18 @@ class RandomStream {
 /// Seed of a stream of its own for part `index` of what `seed` stands for.
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index) {
   return RandomStream(seed ^ RandomStream(index).bits()).bits();
+}
+
+/// Two independent standard normal numbers (Box-Muller): the index-th draw of a seed.
+struct NormalPair {
+  double first = 0;
+  double second = 0;
+};
+inline NormalPair normal_pair(std::uint64_t seed, std::uint64_t index) {
+  RandomStream stream(derived_seed(seed, index));
+  const double radius = std::sqrt(-2 * std::log(1 - stream.uniform(0, 1)));
+  const double angle = stream.uniform(0, 2 * M_PI);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 }  // namespace kestrel::sim_detail

@@ -34,24 +34,33 @@ Span whole_pixels(double length_m, double m_per_px, double principal_px, int ima
   return {first, last - first + 1, ((first + last) / 2 - principal_px) * m_per_px};
 }
 
+/// What there is up to the target: nothing that hides it or shades it.
+Scene uncovered(const Scene& scene) {
+  Scene open = scene;
+  if (scene.target) open.planes.resize(*scene.target + 1);
+  open.target.reset();
+  open.planes.back().motion = {};
+  return open;
+}
+
 }  // namespace
 
 Reference goal_view(const Scene& scene, const Camera& camera, const TargetPose& goal) {
-  if (scene.planes.empty()) throw std::invalid_argument("the scene has no target");
+  const TexturedPlane& target = scene.target_plane();
   if (!(goal.translation.z() > 0) || !goal.translation.allFinite()) {
     throw std::invalid_argument("the goal must have the target in front of the camera");
   }
   CameraParameters pinhole = camera.parameters();
   pinhole.lens = Lens::Pinhole;
   const double distance_m = goal.translation.norm();
-  const TexturedPlane& target = scene.planes.back();
   const Span across =
       whole_pixels(target.width_m, distance_m / pinhole.px, pinhole.u0, pinhole.width);
   const Span down =
       whole_pixels(target.height_m, distance_m / pinhole.py, pinhole.v0, pinhole.height);
   Reference reference;
   const TargetPose in_front{Eigen::Matrix3d::Identity(), {0, 0, distance_m}};
-  reference.image = render(scene, Camera(pinhole), target.world_from_target * in_front.inverse());
+  reference.image =
+      render(uncovered(scene), Camera(pinhole), target.world_from_target * in_front.inverse());
   reference.box = {across.first, down.first, across.count, down.count};
   reference.width_m = across.count * distance_m / pinhole.px;
   reference.height_m = down.count * distance_m / pinhole.py;

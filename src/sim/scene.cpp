@@ -1,5 +1,6 @@
 #include "kestrel/sim/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,7 @@ const char* fault(const TexturedPlane& plane) {
   const auto& pose = plane.world_from_target;
   if (!(rotation_defect(pose.rotation) < kRotationTolerance)) return "the pose is no rotation";
   if (!pose.translation.allFinite()) return "the position must be finite";
+  if (!(plane.opacity > 0 && plane.opacity <= 1)) return "the opacity must be within (0, 1]";
   return nullptr;
 }
 
@@ -52,8 +54,42 @@ TexturedPlane wall_plane(const WallOptions& o) {
 
 }  // namespace
 
+void PlaneMotion::check() const {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw std::invalid_argument(what);
+  };
+  require(velocity_m_s.allFinite(), "velocity_m_s: must be finite");
+  require(std::isfinite(start_s), "start_s: must be finite");
+  require(stop_s >= start_s, "stop_s: must not be before start_s");
+  require(sway_m.allFinite(), "sway_m: must be finite");
+  require(positive(sway_period_s), "sway_period_s: must be positive");
+  require(from_s <= until_s, "until_s: must not be before from_s");
+}
+
+Eigen::Vector3d offset(const PlaneMotion& motion, double time_s) {
+  const double moving_s = std::clamp(time_s, motion.start_s, motion.stop_s) - motion.start_s;
+  const double phase = 2 * M_PI * moving_s / motion.sway_period_s;
+  return motion.velocity_m_s * moving_s + motion.sway_m * std::sin(phase);
+}
+
+Transform<frame::World, frame::Target> pose(const TexturedPlane& plane, double time_s) {
+  auto moved = plane.world_from_target;
+  moved.translation += offset(plane.motion, time_s);
+  return moved;
+}
+
+const TexturedPlane& Scene::target_plane() const {
+  if (planes.empty()) throw std::invalid_argument("the scene has no target");
+  if (target && *target >= planes.size()) {
+    throw std::invalid_argument("the scene's target is none of its planes");
+  }
+  return target ? planes[*target] : planes.back();
+}
+
 void Scene::check() const {
+  if (target) target_plane();
   for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].motion.check();
     if (const char* what = fault(planes[i])) {
       throw std::invalid_argument("plane " + std::to_string(i) + " of the scene: " + what);
     }

@@ -268,5 +268,74 @@ TEST(Render, RefusesNonsense) {
   EXPECT_THROW(Renderer(broken, small_camera()), std::invalid_argument);
 }
 
+/// Two grey planes behind each other that fill the view.
+Scene glass(double opacity) {
+  Scene scene;
+  for (const int grey : {200, 40}) {
+    TexturedPlane plane{cv::Mat(8, 8, CV_8U, cv::Scalar(grey)), 100, 100, world_from_wall()};
+    plane.world_from_target.translation.x() = grey == 40 ? -1 : 0;
+    scene.planes.push_back(plane);
+  }
+  scene.planes[1].opacity = opacity;
+  return scene;
+}
+
+Transform<frame::World, frame::Camera> from_five() {
+  return {world_from_wall().rotation, {-5, 0, 0}};
+}
+
+Camera tiny_camera() {
+  CameraParameters p;
+  p.width = 33;
+  p.height = 33;
+  p.px = p.py = 30;
+  p.u0 = p.v0 = 16;
+  return Camera(p);
+}
+
+TEST(Render, LightShinesThroughWhatIsNotOpaque) {
+  for (const double opacity : {0.25, 0.5, 1.0}) {
+    const cv::Mat view = render(glass(opacity), tiny_camera(), from_five());
+    const double expected = opacity * 40 + (1 - opacity) * 200;
+    EXPECT_NEAR(view.at<std::uint8_t>(16, 16), expected, 0.51) << opacity;
+  }
+}
+
+TEST(Render, PlanesComeAndGo) {
+  Scene scene = glass(1);
+  scene.planes[1].motion.until_s = 2;
+  const Renderer renderer(scene, tiny_camera());
+  EXPECT_EQ(renderer.expose(Shot{{0, {{1, from_five()}}}}).at<std::uint8_t>(16, 16), 40);
+  EXPECT_EQ(renderer.expose(Shot{{0, {{3, from_five()}}}}).at<std::uint8_t>(16, 16), 200);
+  // Half the exposure with it, half without.
+  EXPECT_EQ(
+      renderer.expose(Shot{{0, {{1, from_five()}, {3, from_five()}}}}).at<std::uint8_t>(16, 16),
+      120);
+  // The upper rows before it goes, the lower ones after.
+  const cv::Mat rolled = renderer.expose(Shot{{0, {{1, from_five()}}}, {10, {{3, from_five()}}}});
+  EXPECT_EQ(rolled.at<std::uint8_t>(9, 16), 40);
+  EXPECT_EQ(rolled.at<std::uint8_t>(10, 16), 200);
+}
+
+TEST(Render, CornersAreDarkerAndGainIsOfAllLight) {
+  RenderOptions options;
+  options.vignetting = 0.4;
+  options.gain = 0.5;
+  const cv::Mat view = render(glass(1), tiny_camera(), from_five(), options);
+  EXPECT_EQ(view.at<std::uint8_t>(16, 16), 20);
+  EXPECT_EQ(view.at<std::uint8_t>(0, 0), 12);
+  EXPECT_EQ(view.at<std::uint8_t>(16, 0), 16);  // half the squared distance
+}
+
+TEST(Render, RefusesAShotThatIsNone) {
+  const Renderer renderer(glass(1), tiny_camera());
+  EXPECT_THROW(renderer.expose(Shot{}), std::invalid_argument);
+  EXPECT_THROW(renderer.expose(Shot{{0, {}}}), std::invalid_argument);
+  EXPECT_THROW(renderer.expose(Shot{{5, {{0, from_five()}}}}), std::invalid_argument);
+  RenderOptions options;
+  options.vignetting = 2;
+  EXPECT_THROW(render(glass(1), tiny_camera(), from_five(), options), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -94,5 +94,35 @@ TEST(Scene, RefusesAWallWithoutSize) {
   }
 }
 
+TEST(Scene, PlanesMoveWhenTheyAreTold) {
+  PlaneMotion m;
+  EXPECT_EQ(offset(m, 100), Vector3d(0, 0, 0));
+  m.velocity_m_s = {0, 0.5, 0};
+  m.start_s = 2;
+  m.stop_s = 6;
+  m.sway_m = {0, 0, 0.2};
+  m.sway_period_s = 4;
+  EXPECT_EQ(offset(m, 1), Vector3d(0, 0, 0));
+  EXPECT_LT((offset(m, 3) - Vector3d(0, 0.5, 0.2)).norm(), 1e-12);
+  EXPECT_LT((offset(m, 9) - Vector3d(0, 2, 0)).norm(), 1e-12);
+  m.from_s = 1;
+  m.until_s = 3;
+  EXPECT_FALSE(m.is_there(0.9));
+  EXPECT_TRUE(m.is_there(1));
+  EXPECT_FALSE(m.is_there(3));
+  m.sway_period_s = 0;
+  EXPECT_THROW(m.check(), std::invalid_argument);
+}
+
+TEST(Scene, TargetIsTheLastPlaneUnlessSaid) {
+  Scene s = wall_scene(cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
+  EXPECT_EQ(&s.target_plane(), &s.planes.back());
+  s.target = 1;
+  EXPECT_EQ(&s.target_plane(), &s.planes[1]);
+  s.target = 7;
+  EXPECT_THROW(s.check(), std::invalid_argument);
+  EXPECT_THROW(Scene().target_plane(), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -50,10 +50,10 @@ TEST(World, CountsAndStampsItsFramesThenEnds) {
     EXPECT_EQ(frame->gray.type(), CV_8UC1);
     world.send({1, 0, 0, 0}, frame->stamp_s);
   }
-  const Vector3d last = world.state().position_m;
+  const Vector3d last = world.motion().world_from_body.translation;
   EXPECT_FALSE(world.next());
   EXPECT_FALSE(world.next());
-  EXPECT_EQ(world.state().position_m, last);
+  EXPECT_EQ(world.motion().world_from_body.translation, last);
   EXPECT_TRUE(world.skipped().empty());
 }
 
@@ -71,11 +71,11 @@ TEST(World, FirstFrameShowsTheStartAndACommandMovesTheNext) {
   World world(scene(), options);
   world.send({0, 0, 1, 0}, 0);
   world.next();
-  EXPECT_EQ(world.state().position_m, options.start.position_m);
+  EXPECT_EQ(world.motion().world_from_body.translation, options.start.position_m);
   world.next();
   const HelicopterState expected = advanced(options.start, {0, 0, 1, 0}, 1.0 / 30);
-  EXPECT_EQ(world.state().position_m, expected.position_m);
-  EXPECT_GT(world.state().position_m.z(), options.start.position_m.z());
+  EXPECT_EQ(world.motion().world_from_body.translation, expected.position_m);
+  EXPECT_GT(world.motion().world_from_body.translation.z(), options.start.position_m.z());
 }
 
 TEST(World, HoversWhenNoCommandArrivesForHalfASecond) {
@@ -90,9 +90,9 @@ TEST(World, HoversWhenNoCommandArrivesForHalfASecond) {
     const bool fresh = k - 1 < 15;
     expected =
         advanced(expected, fresh ? VelocityCommand{1, 0.5, 0.2, 0.1} : VelocityCommand{}, 1.0 / 30);
-    ASSERT_EQ(world.state().position_m, expected.position_m) << "frame " << k;
+    ASSERT_EQ(world.motion().world_from_body.translation, expected.position_m) << "frame " << k;
   }
-  EXPECT_LT(world.state().velocity_m_s.norm(), 0.05);
+  EXPECT_LT(world.motion().velocity_m_s.norm(), 0.05);
 }
 
 TEST(World, CommandThatIsNotANumberIsHoverAndCounted) {
@@ -102,9 +102,9 @@ TEST(World, CommandThatIsNotANumberIsHoverAndCounted) {
   world.next();
   world.send({std::numeric_limits<double>::quiet_NaN(), 0, 0, 0}, 0);
   EXPECT_EQ(world.failures(), 1);
-  const HelicopterState before = world.state();
+  const HelicopterState before = advanced(small_world(90).start, {1, 0, 0, 0}, 1.0 / 30);
   world.next();
-  EXPECT_EQ(world.state().position_m, advanced(before, {}, 1.0 / 30).position_m);
+  EXPECT_EQ(world.motion().world_from_body.translation, advanced(before, {}, 1.0 / 30).position_m);
 }
 
 TEST(World, FrameIsTheViewFromWhereTheCameraIs) {
@@ -117,14 +117,79 @@ TEST(World, FrameIsTheViewFromWhereTheCameraIs) {
     frame = world.next();
     world.send({1, 0.5, -0.3, 0.2}, 0);
   }
-  const auto world_from_camera = pose(world.state()) * options.body_from_camera;
+  HelicopterState expected = options.start;
+  for (int k = 0; k < 5; ++k) expected = advanced(expected, {1, 0.5, -0.3, 0.2}, 1.0 / 30);
+  const auto world_from_camera = pose(expected) * options.body_from_camera;
   const cv::Mat view = render(scene(), options.camera, world_from_camera);
   EXPECT_EQ(cv::norm(frame->gray, view, cv::NORM_INF), 0);
   ASSERT_TRUE(frame->attitude);
-  EXPECT_EQ(frame->attitude->roll, world.state().roll);
-  EXPECT_EQ(frame->attitude->pitch, world.state().pitch);
-  EXPECT_EQ(frame->attitude->yaw, wrap_angle(world.state().yaw));
-  EXPECT_NE(world.state().pitch, 0);
+  EXPECT_EQ(frame->attitude->roll, expected.roll);
+  EXPECT_EQ(frame->attitude->pitch, expected.pitch);
+  EXPECT_EQ(frame->attitude->yaw, wrap_angle(expected.yaw));
+  EXPECT_NE(expected.pitch, 0);
+}
+
+// Two periods and a half: the command for frame 0 is obeyed from the middle of the third period on.
+TEST(World, ObeysLate) {
+  WorldOptions options = small_world(6);
+  options.imaging.latency_s = 2.5 / 30;
+  World world(scene(), options);
+  world.next();
+  world.send({0, 0, 1, 0}, 0);
+  for (int k = 1; k <= 2; ++k) {
+    world.next();
+    EXPECT_EQ(world.motion().world_from_body.translation, options.start.position_m) << k;
+  }
+  world.next();
+  // v' = (1 - v) / 0.4 for 1/60 s: z = t - 0.4 (1 - e^(-t / 0.4)), but for Euler's first order.
+  const double t = 1.0 / 60;
+  const double climbed = t - 0.4 * (1 - std::exp(-t / 0.4));
+  EXPECT_NEAR(world.motion().world_from_body.translation.z() - options.start.position_m.z(),
+              climbed, 0.15 * climbed);
+}
+
+TEST(World, DropsFramesAndFliesOn) {
+  WorldOptions options = small_world(400);
+  options.imaging.drop_share = 0.25;
+  World world(scene(), options);
+  int seen = 0;
+  std::int64_t last = -1;
+  while (const auto frame = world.next()) {
+    EXPECT_GT(frame->index, last);
+    EXPECT_EQ(frame->stamp_s, double(frame->index) / 30);
+    last = frame->index;
+    ++seen;
+  }
+  EXPECT_NEAR(seen, 300, 35);  // four standard deviations of a binomial
+  World again(scene(), options);
+  while (again.next()) --seen;
+  EXPECT_EQ(seen, 0);
+}
+
+TEST(World, TargetGoesItsWay) {
+  Scene moving = scene();
+  moving.planes[0].motion.velocity_m_s = {0, 0.3, 0};
+  moving.planes[0].motion.start_s = 0.1;
+  World world(moving, small_world(31));
+  while (world.next()) {
+  }
+  EXPECT_NEAR(world.world_from_target().translation.y(), 0.3 * 0.9, 1e-12);
+  EXPECT_LT((world.camera_from_target().translation -
+             (world.world_from_camera().inverse() * world.world_from_target()).translation)
+                .norm(),
+            1e-12);
+}
+
+TEST(World, FliesTheRigidBodyToo) {
+  WorldOptions options = small_world(90);
+  options.vehicle = RotorcraftSystem{};
+  World world(scene(), options);
+  for (int k = 0; k < 90; ++k) {
+    const auto frame = world.next();
+    EXPECT_NE(frame->attitude->roll, 0);  // it leans against its tail rotor
+    world.send({1, 0, 0, 0}, frame->stamp_s);
+  }
+  EXPECT_GT(world.motion().velocity_m_s.x(), 0.9);
 }
 
 TEST(World, TruthIsWhereTheTargetIsSeen) {
@@ -146,7 +211,7 @@ TEST(World, TruthIsWhereTheTargetIsSeen) {
 
 TEST(World, SameSeedSameFilm) {
   WorldOptions options = small_world(5);
-  options.noise_grey = 3;
+  options.imaging.noise_grey = 3;
   World a(scene(), options);
   World b(scene(), options);
   options.seed = 2;
@@ -173,12 +238,18 @@ TEST(World, RefusesOptionsOutOfRange) {
   refuses([](WorldOptions& o) { o.rate_hz = 0; });
   refuses([nan](WorldOptions& o) { o.rate_hz = nan; });
   refuses([](WorldOptions& o) { o.frames = -1; });
-  refuses([](WorldOptions& o) { o.noise_grey = -1; });
+  refuses([](WorldOptions& o) { o.imaging.noise_grey = -1; });
   refuses([](WorldOptions& o) { o.command_timeout_s = 0; });
   refuses([nan](WorldOptions& o) { o.start.yaw = nan; });
   refuses([](WorldOptions& o) { o.body_from_camera.rotation *= 2; });
-  refuses([](WorldOptions& o) { o.world_from_target.rotation.setZero(); });
-  refuses([](WorldOptions& o) { o.helicopter.substeps = 0; });
+  refuses([](WorldOptions& o) {
+    HelicopterOptions helicopter;
+    helicopter.substeps = 0;
+    o.vehicle = helicopter;
+  });
+  refuses([](WorldOptions& o) { o.imaging.drop_share = 1; });
+  refuses([](WorldOptions& o) { o.imaging.latency_s = -1; });
+  refuses([](WorldOptions& o) { o.imaging.shutter.exposure_s = 2; });
 }
 
 }  // namespace

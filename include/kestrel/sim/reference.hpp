@@ -24,9 +24,9 @@ struct Reference {
   Transform<frame::Target, frame::Target> target_from_template;
 };
 
-/// The target (the last plane of the scene) photographed from straight in front of its centre at
-/// the goal's distance, |translation| of goal, by the camera without its lens: pixels are then
-/// squares on the target whatever the goal and the lens. Throws std::invalid_argument when the
+/// The target of the scene, without what hides it, photographed from straight in front of its
+/// centre at the goal's distance, |translation| of goal, by the camera without its lens: pixels are
+/// then squares on the target whatever the goal and the lens. Throws std::invalid_argument when the
 /// scene has no plane, the goal's target is not in front of the camera, or the target does not fit
 /// into the picture or spans less than 16 px.
 Reference goal_view(const Scene& scene, const Camera& camera, const TargetPose& goal);

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/transform.hpp"
-#include "kestrel/sim/helicopter.hpp"
 #include "kestrel/sim/render.hpp"
 #include "kestrel/sim/scene.hpp"
+#include "kestrel/sim/shutter.hpp"
+#include "kestrel/sim/vehicle.hpp"
+#include "kestrel/sim/vibration.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"
 #include "kestrel/vision/frame.hpp"
 
@@ -22,20 +26,33 @@ Camera default_camera();
 /// A camera at the helicopter's origin that looks ahead: x of Camera to the right, y down.
 Mount forward_mount();
 
+/// What the camera and its electronics add.
+struct ImagingOptions {
+  double noise_grey = 0;  // sensor noise, standard deviation
+  double vignetting = 0;  // share of the light missing in the corners
+  double gain_drift = 0;  // amplitude of a slow sine of all light, share
+  double gain_period_s = 20;
+  ShutterOptions shutter;
+  VibrationOptions vibration;
+  double latency_s = 0;   // from capture until a command decided on the frame is obeyed
+  double drop_share = 0;  // frames that never arrive
+
+  /// Throws std::invalid_argument that names the first option out of range.
+  void check() const;
+};
+
 /// What flies where, and how it looks.
 struct WorldOptions {
   Camera camera = default_camera();
   Mount body_from_camera = forward_mount();
-  HelicopterOptions helicopter;
+  VehicleOptions vehicle = HelicopterOptions{};
   HelicopterState start = default_start();
   double rate_hz = 30;
   std::optional<std::int64_t> frames = 1200;  // empty: without end
-  double noise_grey = 0;                      // sensor noise, standard deviation
-  std::uint64_t seed = 1;                     // of the noise
+  ImagingOptions imaging;
+  std::uint64_t seed = 1;  // of noise, drops, wind and sensors
   /// Without a command for this long the helicopter hovers, as a flight controller does by itself.
   double command_timeout_s = 0.5;
-  /// The target whose pose camera_from_target() tells.
-  Transform<frame::World, frame::Target> world_from_target = world_from_wall();
 
   /// 9 m south of the target, 1.5 m east and 1.0 m below, at rest, looking north.
   static HelicopterState default_start();
@@ -45,40 +62,55 @@ struct WorldOptions {
 };
 
 /// The helicopter in the computer, in lockstep: each frame shows the scene from where the commands
-/// up to it have brought the camera. Poses are composed here, never twists: nothing is shared with
-/// the maths of the servo loop.
+/// up to it have brought the camera. Poses are composed here: nothing is shared with the maths of
+/// the servo loop.
 class World final : public FrameSource, public CommandSink {
  public:
   /// Throws std::invalid_argument for a scene or options that do not check.
   World(const Scene& scene, const WorldOptions& options);
 
-  /// Flies on for one period with the command last sent (not before the first frame) and looks.
-  /// Frame k is stamped k / rate_hz and carries the true attitude. Empty after the last frame, and
-  /// the helicopter stays where that showed it.
+  /// Flies on for one period with the commands sent (not before the first frame) and looks; for
+  /// more than one after a frame that was dropped. Frame k is stamped k / rate_hz and carries the
+  /// attitude that the flight computer reports. Empty after the last frame, and the helicopter
+  /// stays where that showed it.
   std::optional<Frame> next() override;
   const std::vector<std::string>& skipped() const override { return skipped_; }
   std::optional<std::int64_t> frame_count() const override { return options_.frames; }
 
-  /// Taken as arriving at the instant of the last frame, whatever stamp_s says. A command that is
-  /// not finite is counted as a failure and obeyed as hover.
+  /// Obeyed from latency_s after the instant of the last frame on, whatever stamp_s says. A command
+  /// that is not finite is counted as a failure and obeyed as hover.
   void send(const VelocityCommand& command, double stamp_s) noexcept override;
   long failures() const override { return failures_; }
 
   /// The truth at the instant of the last frame (before the first: the start).
-  const HelicopterState& state() const { return state_; }
+  const VehicleMotion& motion() const { return vehicle_.motion(); }
   Transform<frame::World, frame::Camera> world_from_camera() const;
   TargetPose camera_from_target() const;
+  /// The target's place at that instant.
+  Transform<frame::World, frame::Target> world_from_target() const;
 
  private:
+  /// A command and when the helicopter gets it.
+  struct Pending {
+    double at_s = 0;
+    VelocityCommand command;
+  };
+
   double stamp_s(std::int64_t frame) const { return double(frame) / options_.rate_hz; }
+  double now_s() const { return stamp_s(std::max<std::int64_t>(next_frame_ - 1, 0)); }
   void fly_one_period();
+  void fly(double from_s, double duration_s);
+  bool is_dropped(std::int64_t frame) const;
+  Frame look();
 
   WorldOptions options_;
   Renderer renderer_;
-  HelicopterState state_;
+  TexturedPlane target_;  // without its picture
+  Vehicle vehicle_;
   std::int64_t next_frame_ = 0;
+  std::deque<Pending> pending_;
   VelocityCommand command_;
-  double command_stamp_s_ = 0;
+  double command_stamp_s_ = 0;  // when it was obeyed first
   long failures_ = 0;
   std::vector<std::string> skipped_;
 };
