@@ -112,6 +112,10 @@ Scene scene_of(SceneOptions options, double target_width_m, double target_height
   WallOptions& wall = options.wall;
   wall.poster_width_m = target_width_m;
   wall.poster_height_m = target_height_m;
+  if (options.surface == Surface::Wall) {  // one of the facade's windows to the target's centre
+    wall.wall_width_m = 27;
+    wall.ground_below_m = 4.8;
+  }
   cv::Mat picture;
   if (!options.texture.empty()) {
     picture = load_gray(options.texture);
