@@ -98,9 +98,10 @@ StreamSocket::State StreamSocket::finish_connecting() noexcept {
   socklen_t size = sizeof error;
   ::getsockopt(descriptor_, SOL_SOCKET, SO_ERROR, &error, &size);
   SocketAddress other;
-  const bool connected = ::getpeername(descriptor_, other.get(), &other.size) == 0;
-  if (error != 0) state_ = State::Closed;
-  if (error == 0 && connected) state_ = State::Open;
+  if (error == 0 && ::getpeername(descriptor_, other.get(), &other.size) != 0) return state_;
+  // TCP lets a socket that finds nobody on this machine connect to itself.
+  const bool itself = error == 0 && address_of(other) == local_address(descriptor_);
+  state_ = error != 0 || itself ? State::Closed : State::Open;
   return state_;
 }
 
