@@ -81,7 +81,7 @@ void SwitchOptions::check() const {
   require(is_positive(time_to_live_s), "time_to_live_s: must be positive");
   require(is_positive(heartbeat_period_s), "heartbeat_period_s: must be positive");
   require(missed_heartbeats >= 1, "missed_heartbeats: must be at least 1");
-  require(max_peers >= 2, "max_peers: must be at least 2");
+  require(max_peers >= 1, "max_peers: must be at least 1");
 }
 
 }  // namespace kestrel

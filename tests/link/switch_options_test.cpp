@@ -59,7 +59,7 @@ TEST(SwitchOptions, NameWhatIsWrong) {
       {"time_to_live_s", [](auto& o) { o.time_to_live_s = 0; }},
       {"heartbeat_period_s", [](auto& o) { o.heartbeat_period_s = -1; }},
       {"missed_heartbeats", [](auto& o) { o.missed_heartbeats = 0; }},
-      {"max_peers", [](auto& o) { o.max_peers = 1; }},
+      {"max_peers", [](auto& o) { o.max_peers = 0; }},
   };
   for (const auto& [word, spoil] : wrong) {
     SwitchOptions options = usual();

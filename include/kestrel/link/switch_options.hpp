@@ -68,7 +68,7 @@ struct SwitchOptions {
   double time_to_live_s = 0.5;      // of a setpoint, since its capture
   double heartbeat_period_s = 1;    // expected of sources, and kept by the switch
   int missed_heartbeats = 5;        // this many: the source is dead
-  std::size_t max_peers = 64;       // more are not heard
+  std::size_t max_peers = 16;       // of one link; more are not heard
   std::uint64_t signing_floor = 0;  // signatures are stamped later than this (10 us)
 
   /// Throws std::invalid_argument that names the option and says what is wrong with it.
