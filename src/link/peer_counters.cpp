@@ -6,13 +6,13 @@ namespace kestrel {
 
 const char* name(Refused reason) {
   constexpr std::array<const char*, kRefusedReasons> kNames = {
-      "bad magic",        "truncated",   "bad crc",       "unknown incompat flag",
-      "too fast",         "unsigned",    "bad signature", "replayed",
-      "no source",        "own ids",     "vehicle ids",   "ids taken",
-      "not forwarded",    "not allowed", "not finite",    "unsupported",
-      "duplicate",        "late",        "stale",         "from the future",
-      "not owner",        "locked",      "stopped",       "dead",
-      "too many sources", "cannot sign"};
+      "bad magic",       "truncated",   "bad crc",       "unknown incompat flag",
+      "too fast",        "unsigned",    "bad signature", "replayed",
+      "no source",       "own ids",     "vehicle ids",   "ids taken",
+      "not forwarded",   "not allowed", "not finite",    "unsupported",
+      "duplicate",       "late",        "stale",         "from the future",
+      "not owner",       "locked",      "stopped",       "dead",
+      "too many sources"};
   return kNames[std::size_t(reason)];
 }
 
@@ -30,6 +30,24 @@ Refused refused_for(mavlink::Refusal refusal) {
       return Refused::NotAllowed;
   }
   return Refused::NotAllowed;
+}
+
+std::optional<Refused> refused_for(mavlink::Verdict verdict) {
+  switch (verdict) {
+    case mavlink::Verdict::Genuine:
+      return std::nullopt;
+    case mavlink::Verdict::Unsigned:
+      return Refused::Unsigned;
+    case mavlink::Verdict::Forged:
+      return Refused::BadSignature;
+    case mavlink::Verdict::Replayed:
+    case mavlink::Verdict::TooOld:
+    case mavlink::Verdict::FromFuture:
+      return Refused::Replayed;
+    case mavlink::Verdict::NoRoom:
+      return Refused::TooManySources;
+  }
+  return Refused::BadSignature;
 }
 
 std::uint64_t PeerCounters::refused_in_all() const {

@@ -60,17 +60,17 @@ void Router::disconnect(PeerId peer) { places_.erase(peer); }
 
 std::variant<Arrival, Refused> Router::learn(PeerId from, const mavlink::Envelope& envelope,
                                              double now_s) {
-  const auto place = places_.find(from);
-  if (place == places_.end()) return Refused::NoSource;
-  if (const auto reason = refused(place->second.role, envelope, now_s)) return *reason;
-  Heard& heard = slot(place->second, envelope);
+  if (const auto reason = refused(from, envelope, now_s)) return *reason;
+  Heard& heard = slot(places_.at(from), envelope);
   heard.last_s = now_s;
   return heard.sequence.arrive(envelope.sequence);
 }
 
-std::optional<Refused> Router::refused(LinkRole role, const mavlink::Envelope& envelope,
+std::optional<Refused> Router::refused(PeerId from, const mavlink::Envelope& envelope,
                                        double now_s) const {
-  if (envelope.system_id == 0) return Refused::NoSource;
+  const auto known = places_.find(from);
+  if (known == places_.end() || envelope.system_id == 0) return Refused::NoSource;
+  const LinkRole role = known->second.role;
   if (is(options_.self, envelope)) return Refused::OwnIds;
   if (role != LinkRole::Flight && is(options_.vehicle, envelope)) return Refused::VehicleIds;
   for (const auto& [peer, place] : places_) {

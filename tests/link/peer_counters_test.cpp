@@ -12,13 +12,20 @@ TEST(PeerCounters, NameEachReasonApart) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < kRefusedReasons; ++i) names.insert(name(Refused(i)));
   EXPECT_EQ(names.size(), kRefusedReasons);
-  EXPECT_EQ(name(Refused::CannotSign), std::string("cannot sign"));  // the last one
+  EXPECT_EQ(name(Refused::TooManySources), std::string("too many sources"));  // the last one
 }
 
 TEST(PeerCounters, SpeakOfDamageAsTheCodecDoes) {
   for (const auto refusal : {mavlink::Refusal::BadMagic, mavlink::Refusal::Truncated,
                              mavlink::Refusal::BadCrc, mavlink::Refusal::UnknownIncompatFlag}) {
     EXPECT_EQ(std::string(name(refused_for(refusal))), mavlink::name(refusal));
+  }
+}
+
+TEST(PeerCounters, RefuseEverySignatureButTheGenuine) {
+  for (std::size_t i = 0; i < mavlink::kVerdicts; ++i) {
+    const auto verdict = mavlink::Verdict(i);
+    EXPECT_EQ(!refused_for(verdict), verdict == mavlink::Verdict::Genuine);
   }
 }
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "kestrel/link/frame.hpp"
+#include "kestrel/link/signature_checker.hpp"
 
 namespace kestrel {
 
@@ -39,15 +41,15 @@ enum class Refused {
   Stopped,              // the emergency stop is set
   Dead,                 // no heartbeat of its source
   TooManySources,       // no room to tell one more source of commands apart
-  CannotSign,           // for a signed link, but of an unknown message
 };
-constexpr std::size_t kRefusedReasons = 26;
+constexpr std::size_t kRefusedReasons = 25;
 
 /// Words for a log or a status page: "bad crc", "not owner".
 const char* name(Refused reason);
 
 /// The same reason in the switch's words.
 Refused refused_for(mavlink::Refusal refusal);
+std::optional<Refused> refused_for(mavlink::Verdict verdict);  // empty for Genuine
 
 /// What became of all that a peer sent, and what was sent to it. Of fixed size, whatever arrives.
 struct PeerCounters {

@@ -50,6 +50,10 @@ class Router {
   std::variant<Arrival, Refused> learn(PeerId from, const mavlink::Envelope& envelope,
                                        double now_s);
 
+  /// Why the sender cannot be behind the peer; learns nothing.
+  std::optional<Refused> refused(PeerId from, const mavlink::Envelope& envelope,
+                                 double now_s) const;
+
   /// The peers that are to have a frame of `from`, by rising id; of flight control only whether it
   /// is for it, not whether it may have it. Lives until the next call.
   const std::vector<PeerId>& destinations(PeerId from, const mavlink::FrameView& frame,
@@ -67,8 +71,6 @@ class Router {
     std::array<Heard, kIdsPerPeer> heard{};
   };
 
-  std::optional<Refused> refused(LinkRole role, const mavlink::Envelope& envelope,
-                                 double now_s) const;
   bool is_behind(const Place& place, const FrameTarget& target, double now_s) const;
   static Heard& slot(Place& place, const mavlink::Envelope& envelope);
 

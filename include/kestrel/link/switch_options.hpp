@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kestrel/link/outbox.hpp"
 #include "kestrel/link/setpoint.hpp"
+#include "kestrel/link/signing.hpp"
 #include "kestrel/vehicle/limits.hpp"
 
 namespace kestrel {
@@ -51,6 +54,7 @@ struct SwitchLink {
   int priority = 0;  // of its setpoints; 0: that of its role
   FlowLimit flow;
   LinkPermissions may;
+  std::optional<mavlink::SigningKey> key;
 };
 
 /// Whose ids the setpoints bear that go to flight control.
@@ -69,7 +73,8 @@ struct SwitchOptions {
   double heartbeat_period_s = 1;    // expected of sources, and kept by the switch
   int missed_heartbeats = 5;        // this many: the source is dead
   std::size_t max_peers = 16;       // of one link; more are not heard
-  std::uint64_t signing_floor = 0;  // signatures are stamped later than this (10 us)
+  SigningTimes signing_times;       // of what the switch signs; empty: by the clock, in memory
+  std::uint64_t signing_floor = 0;  // no signature up to this time is accepted (10 us)
 
   /// Throws std::invalid_argument that names the option and says what is wrong with it.
   void check() const;

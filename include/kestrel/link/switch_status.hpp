@@ -35,7 +35,7 @@ enum class SwitchEventKind {
   Released,
   EmergencyStop,  // until reset
   Reset,
-  ControlDenied,  // a control message of one who may not send it
+  ControlDenied,  // what the ground asked for cannot be: a lock without an owner
   TooManyPeers,
   Shutdown,
 };
@@ -81,6 +81,7 @@ struct SwitchStatus {
   VelocityCommand sent;                   // the last setpoint to flight control
   std::uint64_t setpoints_sent = 0;       // to flight control, zeros among them
   std::uint64_t zeros_sent = 0;           // of these
+  std::uint64_t newest_signature = 0;     // accepted so far: the floor after a restart
   std::uint64_t events_dropped = 0;       // nobody took them in time
   std::uint64_t unknown_peer_chunks = 0;  // bytes of peers that are not connected: not read
   std::vector<PeerStatus> peers;          // by rising id
