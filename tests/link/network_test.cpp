@@ -15,7 +15,7 @@
 
 #include "cli/program.hpp"
 #include "cli/rendered_sequence.hpp"
-#include "link/loopback.hpp"
+#include "link/flight_listener.hpp"
 #include "link/two_networks.hpp"
 #include "support/temp_folder.hpp"
 
@@ -146,7 +146,7 @@ class ServoNetwork : public Network {
     const RenderedSequence sequence = rendered_sequence(folder_ / "frames", frames);
     folder_.write(
         "task.yaml",
-        "source: images:frames/%04d.png\nrate_hz: 10\n"
+        "source: images:frames/%04d.png\nrate_hz: 20\n"
         "camera: {intrinsics_px: [300, 300, 159.5, 119.5], size_px: [320, 240], "
         "body_from_camera: {translation_m: [0, 0, 0], rpy_deg: [90, 0, 90]}}\n"
         "target: {width_m: 1, height_m: 1, template_px: [" +
@@ -206,6 +206,34 @@ TEST_F(ServoNetwork, RunsToItsEndBehindAFirewallThatRejectsAndSaysSo) {
   EXPECT_EQ(sent.exit_code, 0) << sent.err;
   EXPECT_NE(sent.out.find("commands not sent"), std::string::npos) << sent.out;
   EXPECT_EQ(sent.out.find("commands not sent      0"), std::string::npos) << sent.out;
+}
+
+// The switch flies with the vehicle; the companion is on the other end of the cable.
+TEST_F(ServoNetwork, ASwitchOnTheVehicleSaysZeroWhenTheCableIsPulledAndObeysAgainAfter) {
+  render(200);
+  std::optional<FlightListener> flight;
+  networks_->stand(Side::Far, [&] { flight.emplace(); });
+  const Address at = TwoNetworks::ipv4(Side::Far, kPort);
+  folder_.write("switch.yaml", "links:\n  - {name: autopilot, role: flight, url: \"" +
+                                   to_string(flight->local()) +
+                                   "\"}\n  - {name: companion, role: vision, url: "
+                                   "\"udp-listen://10.77.0.2:5005\"}\n");
+  const Program running = start(Side::Far, {"switch", "switch.yaml"});
+  auto words = servo(at);
+  words.emplace_back("--real-time");
+  const Program companion = start(Side::Near, words);
+  ASSERT_TRUE(flight->moves(0));
+  const double fault_s = monotonic_s();
+  networks_->unplug();
+  const double pulled_s = monotonic_s();  // the command that pulls it takes its time
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const double zero_s = flight->lasting_zero_s(fault_s);
+  std::printf("cable pulled between two computers: first zero after %.3f s\n", zero_s - pulled_s);
+  EXPECT_LE(zero_s - pulled_s, kZeroBound_s);
+  EXPECT_LT(monotonic_s() - flight->heard().back().time_s, kSetpointPeriod_s + kScheduling_s);
+  networks_->plug();
+  EXPECT_TRUE(flight->moves(monotonic_s()));
+  EXPECT_EQ(flight->refused(), 0);
 }
 
 }  // namespace
