@@ -12,6 +12,7 @@
 #include "compare.hpp"
 #include "evaluate.hpp"
 #include "explain.hpp"
+#include "switch.hpp"
 
 namespace kestrel::app {
 
@@ -79,9 +80,10 @@ struct DemoArguments {
   std::filesystem::path output;
 };
 
-using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
-                               CheckArguments, DemoArguments, EvaluateArguments, CompareArguments,
-                               MergeArguments, LawsArguments, ExplainArguments>;
+using Arguments =
+    std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
+                 CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
+                 LawsArguments, ExplainArguments, SwitchArguments, KeyArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

@@ -151,6 +151,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   const auto merge = std::make_shared<MergeArguments>();
   const auto laws = std::make_shared<LawsArguments>();
   const auto explain = std::make_shared<ExplainArguments>();
+  const auto switching = std::make_shared<SwitchArguments>();
+  const auto key = std::make_shared<KeyArguments>();
   add_track(app, track);
   add_servo(app, servo);
   add_simulate(app, simulate);
@@ -165,6 +167,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_merge(app, merge);
   add_laws(app, laws);
   add_explain(app, explain);
+  add_switch(app, switching);
+  add_key(app, key);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -183,6 +187,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("merge")) return Arguments(*merge);
   if (app.got_subcommand("laws")) return Arguments(*laws);
   if (app.got_subcommand("explain")) return Arguments(*explain);
+  if (app.got_subcommand("switch")) return Arguments(*switching);
+  if (app.got_subcommand("key")) return Arguments(*key);
   return Arguments(*demo);
 }
 

@@ -20,5 +20,7 @@ int run(const CompareArguments& arguments);
 int run(const MergeArguments& arguments);
 int run(const LawsArguments& arguments);
 int run(const ExplainArguments& arguments);
+int run(const SwitchArguments& arguments);
+int run(const KeyArguments& arguments);
 
 }  // namespace kestrel::app

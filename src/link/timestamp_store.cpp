@@ -23,8 +23,10 @@ constexpr auto kReserveAhead = std::uint64_t(TimestampStore::kReserveAhead_s * k
 
 path beside(const path& file, const char* ending) { return path(file).concat(ending); }
 
-/// The time in the file: decimal digits and a newline.
-std::uint64_t stored_time(const path& file) {
+}  // namespace
+
+// In the file: decimal digits and a newline.
+std::uint64_t stored_signing_time(const path& file) {
   const disk::OpenFile opened(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!opened.is_open()) {
     if (errno == ENOENT) return 0;
@@ -45,15 +47,13 @@ std::uint64_t stored_time(const path& file) {
              "and remove the file (with the old key, old frames could be sent again)");
 }
 
-bool store(const path& file, std::uint64_t time) {
+bool store_signing_time(const path& file, std::uint64_t time) {
   const path fresh = beside(file, ".new");
   const int flags = O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC;
   const disk::OpenFile opened(::open(fresh.c_str(), flags, kOwnerOnly));
   return opened.is_open() && disk::write_through(opened, std::to_string(time) + "\n") &&
          ::rename(fresh.c_str(), file.c_str()) == 0 && disk::sync_folder_of(file);
 }
-
-}  // namespace
 
 /// Held as long as it lives, by one process at a time; the kernel lets go of it for a dead one.
 class TimestampStore::Lock {
@@ -78,7 +78,7 @@ class TimestampStore::Lock {
 
 TimestampStore::TimestampStore(path file)
     : file_(std::move(file)), lock_(std::make_unique<Lock>(file_)) {
-  last_ = stored_time(file_);
+  last_ = stored_signing_time(file_);
   reserved_ = last_.load();
 }
 
@@ -110,7 +110,7 @@ bool TimestampStore::extend(double unix_s) {
   const std::uint64_t until =
       std::min(time + (time > now ? kReserveAhead : kReserve), kLastSigningTime);
   if (until <= reserved_) return true;
-  if (!store(file_, until)) return false;
+  if (!store_signing_time(file_, until)) return false;
   reserved_ = until;
   return true;
 }

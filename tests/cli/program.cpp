@@ -29,16 +29,25 @@ void set(const std::string& setting) {
   setenv(setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str(), 1);
 }
 
+Command kestrel_command(const std::vector<std::string>& arguments) {
+  Command command{{KESTREL_PROGRAM}};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
 }  // namespace
 
 Program::Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 const std::vector<std::string>& environment)
+    : Program(kestrel_command(arguments), folder, environment) {}
+
+Program::Program(const Command& command, const std::filesystem::path& folder,
                  const std::vector<std::string>& environment) {
   static std::atomic<int> count{0};
   const std::string stem = "program-" + std::to_string(getpid()) + "-" + std::to_string(++count);
   out_ = std::filesystem::temp_directory_path() / (stem + ".out");
   err_ = std::filesystem::temp_directory_path() / (stem + ".err");
-  std::vector<std::string> words{KESTREL_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> words = command.words;
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -53,7 +62,7 @@ Program::Program(const std::vector<std::string>& arguments, const std::filesyste
     redirect(STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
     if (chdir(where.c_str()) != 0) _exit(126);
     for (const std::string& setting : environment) set(setting);
-    execv(argv[0], argv.data());
+    execvp(argv[0], argv.data());
     _exit(127);
   }
 }

@@ -15,9 +15,16 @@ struct Outcome {
   double peak_memory_bytes = 0;
 };
 
+/// Any other program and its arguments; found as a shell finds it.
+struct Command {
+  std::vector<std::string> words;
+};
+
 /// The program under test, running.
 class Program {
  public:
+  Program(const Command& command, const std::filesystem::path& folder,
+          const std::vector<std::string>& environment = {});
   /// Starts kestrel with these arguments, stdin empty, in a folder; environment is added to ours.
   Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
           const std::vector<std::string>& environment = {});

@@ -191,5 +191,15 @@ TEST(TimestampStore, GivesNoTimeTwiceThoughItIsKilledAtAnyMoment) {
   EXPECT_GT(given, 60);
 }
 
+TEST(TimestampStore, AnyTimeMayBeKept) {
+  const test::TempFolder folder;
+  EXPECT_EQ(stored_signing_time(folder / "accepted"), 0u);
+  EXPECT_TRUE(store_signing_time(folder / "accepted", 12345));
+  EXPECT_EQ(stored_signing_time(folder / "accepted"), 12345u);
+  EXPECT_TRUE(store_signing_time(folder / "accepted", kLastSigningTime));
+  EXPECT_EQ(stored_signing_time(folder / "accepted"), kLastSigningTime);
+  EXPECT_FALSE(store_signing_time(folder / "no/folder", 1));
+}
+
 }  // namespace
 }  // namespace kestrel::mavlink

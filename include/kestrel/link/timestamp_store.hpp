@@ -11,6 +11,14 @@
 
 namespace kestrel::mavlink {
 
+/// The signing time that a file keeps; 0 when there is none. Throws std::runtime_error, naming the
+/// file and the remedy, when it holds anything else or cannot be read.
+std::uint64_t stored_signing_time(const std::filesystem::path& file);
+
+/// Puts a signing time in a file of mode 0600, on the disk when this returns; after a crash it
+/// holds the old one or this. False when it cannot be written.
+bool store_signing_time(const std::filesystem::path& file, std::uint64_t time);
+
 /// The signing times of one sender, of which none is ever given twice, however the program ended:
 /// a file tells the last time that may have been given. It is written ahead, kReserve_s of them at
 /// once, so that most times cost no disk. Each writing goes to a file of its own, to the disk, and
