@@ -80,6 +80,19 @@ TEST_F(FaultTable, StaleCommandsAreRefusedByTheirCaptureAge) {
   EXPECT_EQ(count_wrong(bench_), 0);
 }
 
+// In order and newer than all before, but a second late: what a queue on the way makes of them.
+TEST_F(FaultTable, CommandsThatAQueueHeldUpAreRefusedByTheirCaptureAge) {
+  bench_.fly(kVision, good(), 1);
+  bench_.pass(1.1);
+  for (int i = 0; i < 14; ++i) {
+    bench_.command(kVision, bad(), 1);
+    try_bad();
+    bench_.pass(0.05);
+  }
+  EXPECT_EQ(bench_.refused(kVision, Refused::Stale), 14u);
+  EXPECT_EQ(count_wrong(bench_), 0);
+}
+
 TEST_F(FaultTable, AFrozenFrameBehindALiveSenderIsNotObeyedLongerThanItLives) {
   bench_.fly(kVision, good(), 1);
   const double captured_s = bench_.now_s();
