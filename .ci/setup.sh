@@ -35,14 +35,21 @@ need_packages() {
   rm -f "$log"
 }
 
-# configure_and_build ROOT PRESET [TARGET]: quiet when there is nothing to do.
+# ccache finds a file by the headers the compiler lists, and does not preprocess it a second time; it
+# takes precompiled headers (their defines and dates are none of its business: their bytes are).
+export CCACHE_DEPEND=1
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
+
+# configure_and_build ROOT PRESET [TARGET [OPTION...]]: quiet when there is nothing to do. Options are
+# of cmake, for a folder that is not configured yet.
 configure_and_build() {
   local root=$1 preset=$2 target=${3:-all} log
+  shift $(($# < 3 ? $# : 3))
   log="$root/build/$preset.log"
   mkdir -p "$root/build"
   if [ ! -f "$root/build/$preset/build.ninja" ]; then
     say "Configuring ($preset)"
-    (cd "$root" && cmake --preset "$preset") >"$log" 2>&1 || {
+    (cd "$root" && cmake --preset "$preset" "$@") >"$log" 2>&1 || {
       tail -n 30 "$log" >&2
       say "Configuring failed; the whole log is $log"
       exit 1

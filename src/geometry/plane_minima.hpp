@@ -59,12 +59,22 @@ inline FirstOrder first_order(const View& view) {
   return f;
 }
 
+/// The least turn that takes the optical axis to a line of sight in front of the camera: half its
+/// angle as a quaternion. (Eigen's FromTwoVectors also knows opposite vectors, by a decomposition
+/// that is never run here and takes longer to compile than all of this file.)
+inline Matrix3d turn_from_axis(const Vector3d& sight) {
+  const Vector3d to = sight.normalized();
+  const double twice_cosine = std::sqrt((1 + to.z()) * 2);  // of half the angle
+  const double inverse = 1 / twice_cosine;
+  return Eigen::Quaterniond(twice_cosine / 2, -to.y() * inverse, to.x() * inverse, 0).matrix();
+}
+
 /// The two poses that agree with the view to first order at the plane's centre: infinitesimal
 /// plane-based pose estimation (Collins & Bartoli 2014, section 4). Seen along the line of sight
 /// they are the plane tilted to one side and to the other.
 inline std::array<TargetPose, 2> starts(const FirstOrder& f) {
   const Vector3d sight(f.centre.x(), f.centre.y(), 1);
-  const Matrix3d R_v = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sight).matrix();
+  const Matrix3d R_v = turn_from_axis(sight);
   const Matrix2d B = R_v.topLeftCorner<2, 2>() - f.centre * R_v.block<1, 2>(2, 0);
   const Matrix2d A = B.inverse() * f.slope;  // the rotation's upper left, over the depth
   const Matrix2d S = A.transpose() * A;

@@ -30,7 +30,7 @@ TargetPose view(test::Random& random, double distance_m, double tilt, double off
                        std::cos(off_axis));
   const double lean = random.uniform(-M_PI, M_PI);
   const Matrix3d towards =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sight).toRotationMatrix();
+      rotation_from_vector(off_axis * Vector3d(-std::sin(side), std::cos(side), 0));
   return {towards * rotation_from_vector(tilt * Vector3d(std::cos(lean), std::sin(lean), 0)) *
               rotation_from_vector({0, 0, random.uniform(-M_PI, M_PI)}),
           distance_m * sight};
