@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <opencv2/core.hpp>
+
 #include "kestrel/io/overlay.hpp"
 
 #include "interrupt.hpp"
@@ -62,7 +64,7 @@ class Fold {
     LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
-    const cv::Mat picture = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
+    const cv::Mat picture = picture_of(now);
     const bool is_open =
         chain_.recorder.record(row, picture, badness(now), {source_ms_, chain_ms, 0});
     count(now);
@@ -100,6 +102,14 @@ class Fold {
   }
 
  private:
+  cv::Mat picture_of(const Step& now) const {
+    const cv::Mat drawn = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
+    if (!chain_.beside) return drawn;
+    cv::Mat both;
+    cv::hconcat(chain_.beside(frame_, drawn.size()), drawn, both);
+    return both;
+  }
+
   void count(const Step& now) {
     ++end_.frames;
     end_.found += now.track.found() ? 1 : 0;

@@ -21,6 +21,8 @@ struct Chain {
   const Task& task;
   RunRecorder& recorder;
   Pace pace = Pace::AsFastAsPossible;
+  /// What is put beside the overlay in video and window, if anything; as high as the overlay.
+  std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside = nullptr;
 };
 
 /// How a run ended.

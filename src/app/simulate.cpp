@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "kestrel/io/csv.hpp"
+#include "kestrel/sim/outside_view.hpp"
 #include "kestrel/sim/reference.hpp"
 
 #include "chain.hpp"
@@ -132,8 +133,17 @@ SimulatedFlight fly(const SimulateArguments& a) {
     if (!end) return std::nullopt;
     return name(*end);
   };
-  const ChainEnd end =
-      run_chain({world, sink, prepared.tracker, prepared.task, recorder}, *world.next(), watch);
+  Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
+  std::optional<OutsideView> outside_view;
+  if (a.run.video || a.run.display) {
+    chain.beside = [&](const Frame& frame, cv::Size size) {
+      const Eigen::Vector3d goal_m = goal_in_world(task, world).translation;
+      const auto& body = world.motion().world_from_body;
+      if (!outside_view) outside_view.emplace(scene, body.translation, goal_m, size);
+      return outside_view->draw(body, task.body_from_camera, goal_m, frame.stamp_s);
+    };
+  }
+  const ChainEnd end = run_chain(chain, *world.next(), watch);
   const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
   RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
   recorder.add_times(result.summary);
