@@ -39,7 +39,7 @@ unsigned mode_of(const path& file) {
 }
 
 TEST(KeyFile, IsReadAsItWasWritten) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   const SigningKey key = random_key();
   const mode_t umask = ::umask(0277);  // the worst there is
   write_key(folder / "new.key", key);
@@ -50,7 +50,7 @@ TEST(KeyFile, IsReadAsItWasWritten) {
 }
 
 TEST(KeyFile, HoldsHexadecimalDigits) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   const test::Buffer bytes = test::copy(load_key(key_file(folder, kDigits + "\n")).bytes());
   EXPECT_EQ(bytes[0], 0x00);
   EXPECT_EQ(bytes[1], 0x11);
@@ -60,7 +60,7 @@ TEST(KeyFile, HoldsHexadecimalDigits) {
 }
 
 TEST(KeyFile, OfAnyOtherModeIsRefused) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   for (const mode_t mode : {0644, 0640, 0604, 0660, 0606, 0700, 0601, 0400, 0200, 04600, 0666}) {
     const path file = key_file(folder, kDigits + "\n", mode);
     if (::geteuid() != 0 && (mode & S_IRUSR) == 0) continue;  // cannot even be opened
@@ -71,7 +71,7 @@ TEST(KeyFile, OfAnyOtherModeIsRefused) {
 }
 
 TEST(KeyFile, OfAnotherOwnerIsRefused) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   const path file = key_file(folder, kDigits + "\n");
   if (::chown(file.c_str(), ::geteuid() + 1, gid_t(-1)) != 0) {
     GTEST_SKIP() << "only root may give files away";
@@ -80,7 +80,7 @@ TEST(KeyFile, OfAnotherOwnerIsRefused) {
 }
 
 TEST(KeyFile, IsAFileOfItsOwn) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   const path file = key_file(folder, kDigits + "\n");
   std::filesystem::create_symlink(file, folder / "link.key");
   EXPECT_THAT(failure(folder / "link.key"), HasSubstr("symbolic link"));
@@ -91,7 +91,7 @@ TEST(KeyFile, IsAFileOfItsOwn) {
 }
 
 TEST(KeyFile, HoldsAKeyAndNothingElse) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   std::string no_digit = kDigits + "\n";
   no_digit[20] = 'g';
   for (const std::string& text :
@@ -105,7 +105,7 @@ TEST(KeyFile, HoldsAKeyAndNothingElse) {
 }
 
 TEST(KeyFile, IsNeverOverwritten) {
-  const test::TempFolder folder;
+  const test::TempFolder folder(test::memory_folder());
   const path file = folder / "a.key";
   const SigningKey key = random_key();
   write_key(file, key);

@@ -42,8 +42,9 @@ class SignatureChecker {
  public:
   static constexpr std::size_t kStreams = 64;
 
-  /// Nothing signed at `floor` (see signing_time) or before is accepted: after a restart, that is
-  /// newest() from before it, or else what was sent within the last minute could be sent again.
+  /// Nothing signed at `floor` (see signing_time) or before is accepted. At a start give it the
+  /// time of the start, or newest() from before it if that was kept: with 0, what was sent within
+  /// the last minute before a restart could be sent again.
   explicit SignatureChecker(const SigningKey& key, std::uint64_t floor = 0)
       : key_(key), floor_(floor), newest_(floor) {}
 
