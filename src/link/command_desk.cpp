@@ -27,24 +27,24 @@ std::optional<Refused> CommandDesk::setpoint(const Claimant& from,
   const double fresh_until_s =
       std::min(now_s + options_.deadman_s, guarded.captured_s + options_.time_to_live_s);
   if (const auto reason = arbiter_.offer(from, fresh_until_s, now_s)) return reason;
-  if (has_changed_hands()) return std::nullopt;
+  look_who_owns();
+  if (owes_zero_) return std::nullopt;  // that comes first
   stream_.want({guarded.command, guarded.captured_s}, fresh_until_s);
   fresh_until_s_ = fresh_until_s;
   must_send_ = true;
   return std::nullopt;
 }
 
-bool CommandDesk::has_changed_hands() {
-  if (arbiter_.owner() == owner_) return false;
+void CommandDesk::look_who_owns() {
+  if (arbiter_.owner() == owner_) return;
   owner_ = arbiter_.owner();
   send_zero();
-  return true;
 }
 
 void CommandDesk::send_zero() {
   fresh_until_s_.reset();
   stream_.want_zero();
-  must_send_ = true;
+  must_send_ = owes_zero_ = true;
 }
 
 bool CommandDesk::control(SwitchControl what) {
@@ -65,7 +65,7 @@ bool CommandDesk::control(SwitchControl what) {
       arbiter_.reset();
       break;
   }
-  has_changed_hands();
+  look_who_owns();
   send_zero();
   return true;
 }
@@ -74,7 +74,7 @@ void CommandDesk::forget(PeerId peer, double now_s) {
   guard_.forget(peer);
   if (owner_ && owner_->peer == peer) send_zero();  // also when control stays locked to it
   arbiter_.forget(peer, now_s);
-  has_changed_hands();
+  look_who_owns();
 }
 
 void CommandDesk::close() {
@@ -89,13 +89,13 @@ void CommandDesk::settle(double now_s) {
     send_zero();
   }
   arbiter_.update(now_s);
-  has_changed_hands();
+  look_who_owns();
 }
 
 std::optional<FlightSetpoint> CommandDesk::due(double now_s) {
   settle(now_s);
   if (!must_send_ && !stream_.is_due(now_s)) return std::nullopt;
-  must_send_ = false;
+  must_send_ = owes_zero_ = false;
   return stream_.next(now_s);
 }
 

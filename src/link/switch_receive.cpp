@@ -16,19 +16,10 @@ constexpr std::uint32_t kHeartbeat = 0, kCommandLong = 76, kSetpoint = 84, kSetu
 bool concerns(std::uint8_t target, std::uint8_t me) { return target == 0 || target == me; }
 
 SwitchEventKind event_of(SwitchControl what) {
-  switch (what) {
-    case SwitchControl::TakeOver:
-      return SwitchEventKind::TakenOver;
-    case SwitchControl::Lock:
-      return SwitchEventKind::Locked;
-    case SwitchControl::Release:
-      return SwitchEventKind::Released;
-    case SwitchControl::EmergencyStop:
-      return SwitchEventKind::EmergencyStop;
-    case SwitchControl::Reset:
-      return SwitchEventKind::Reset;
-  }
-  return SwitchEventKind::ControlDenied;
+  constexpr SwitchEventKind kKinds[] = {SwitchEventKind::TakenOver, SwitchEventKind::Locked,
+                                        SwitchEventKind::Released, SwitchEventKind::EmergencyStop,
+                                        SwitchEventKind::Reset};
+  return kKinds[std::size_t(what) - std::size_t(SwitchControl::TakeOver)];
 }
 
 template <class M>

@@ -67,7 +67,7 @@ class CommandDesk {
 
  private:
   void settle(double now_s);
-  bool has_changed_hands();
+  void look_who_owns();
   void send_zero();
 
   CommandDeskOptions options_;
@@ -76,7 +76,7 @@ class CommandDesk {
   FlightStream stream_;
   std::optional<SourceId> owner_;        // at the last look
   std::optional<double> fresh_until_s_;  // of the setpoint being followed
-  bool must_send_ = false, closed_ = false;
+  bool must_send_ = false, owes_zero_ = false, closed_ = false;
   std::uint64_t deadman_count_ = 0;
 };
 
