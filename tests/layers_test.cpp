@@ -46,6 +46,7 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
     {"libav", {"io/libav", "io/video_reader", "io/video_encoder"}},
     {"libsw", {"io/libav"}},
     {"png.h", {"io/png_image"}},
+    {"sodium.h", {"link"}},
     {"jpeglib.h", {"io/jpeg_image"}},
     {"dlfcn.h", {"io/module"}},
     {"opencv2/videoio", {"io/capture_module"}},

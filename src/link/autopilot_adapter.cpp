@@ -69,9 +69,9 @@ void AutopilotAdapter::release(double now_s) {
 }
 
 bool AutopilotAdapter::released() const {
-  const bool done = handshake_.state() == ControlState::Unseen ||
-                    handshake_.state() == ControlState::Refused ||
-                    handshake_.state() == ControlState::Released;
+  const bool done = handshake_.state() == HandshakeState::Unseen ||
+                    handshake_.state() == HandshakeState::Refused ||
+                    handshake_.state() == HandshakeState::Released;
   return release_s_ && !zeros_until_s_ && done;
 }
 
@@ -150,8 +150,8 @@ AutopilotAdapter::Frames AutopilotAdapter::tick(double now_s) {
 void AutopilotAdapter::send_commands(double now_s, Frames& due) {
   if (release_s_ && now_s >= *release_s_) {
     zeros_until_s_.reset();
-    if (handshake_.state() != ControlState::GivingBack &&
-        handshake_.state() != ControlState::Released) {
+    if (handshake_.state() != HandshakeState::GivingBack &&
+        handshake_.state() != HandshakeState::Released) {
       handshake_.release();
     }
   }
@@ -160,7 +160,7 @@ void AutopilotAdapter::send_commands(double now_s, Frames& due) {
     due.push_back(framed(*command));
     ++counts_.commands;
   }
-  const bool lost = handshake_.state() == ControlState::Unseen && before == StreamWish::Commands;
+  const bool lost = handshake_.state() == HandshakeState::Unseen && before == StreamWish::Commands;
   if (lost && !zeros_until_s_) zeros_until_s_ = now_s + options_.farewell_s;
   while (!intervals_.empty()) {
     if (const auto command = intervals_.front().due(now_s)) {

@@ -92,12 +92,16 @@ Parsed frame_at_start(Bytes bytes) {
 
   FrameView frame{bytes.first(size), nullptr};
   frame.info = message_info(frame.message_id());
-  if (frame.info == nullptr) return {frame, size};
+  const bool known_flags = (bytes.data[kIncompat] & ~kSigned) == 0;
+  if (frame.info == nullptr) {
+    // Unknown flags may mean another length, and no checksum speaks for this one.
+    return known_flags ? Parsed{frame, size} : Parsed{Refusal::UnknownMessage, size};
+  }
   const auto sent_crc = std::uint16_t(bytes.data[crc_at] | bytes.data[crc_at + 1] << 8);
   if (frame_crc(bytes.first(crc_at), frame.info->crc_extra) != sent_crc) {
     return {Refusal::BadCrc, size};
   }
-  if ((bytes.data[kIncompat] & ~kSigned) != 0) return {Refusal::UnknownIncompatFlag, size};
+  if (!known_flags) return {Refusal::UnknownIncompatFlag, size};
   return {frame, size};
 }
 

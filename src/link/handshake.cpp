@@ -19,7 +19,7 @@ void HandshakeOptions::check() const {
   request.check();
 }
 
-const char* name(ControlState state) {
+const char* name(HandshakeState state) {
   constexpr const char* kNames[] = {"unseen",  "seen",        "asking",   "climbing", "in control",
                                     "landing", "giving back", "released", "refused"};
   return kNames[std::size_t(state)];
@@ -27,7 +27,7 @@ const char* name(ControlState state) {
 
 Handshake::Handshake(const HandshakeOptions& options) : options_(options) { options_.check(); }
 
-void Handshake::end(ControlState state, const std::string& words) {
+void Handshake::end(HandshakeState state, const std::string& words) {
   state_ = state;
   words_ = words;
   goal_ = Goal::None;
@@ -41,9 +41,9 @@ void Handshake::end(ControlState state, const std::string& words) {
 void Handshake::request_control() {
   if (!options_.take_control) {
     words_ = "take_control is off: the pilot chooses the mode";
-  } else if (goal_ != Goal::Control && state_ != ControlState::InControl) {
-    const bool is_heard = profile_ && state_ != ControlState::Unseen;
-    end(is_heard ? ControlState::Seen : ControlState::Unseen, "control is asked for");
+  } else if (goal_ != Goal::Control && state_ != HandshakeState::InControl) {
+    const bool is_heard = profile_ && state_ != HandshakeState::Unseen;
+    end(is_heard ? HandshakeState::Seen : HandshakeState::Unseen, "control is asked for");
     goal_ = Goal::Control;
   }
 }
@@ -51,23 +51,24 @@ void Handshake::request_control() {
 void Handshake::request_landing() {
   if (!options_.allow_arming) {
     words_ = "landing is not asked for: allow_arming is off";
-  } else if (state_ != ControlState::InControl) {
+  } else if (state_ != HandshakeState::InControl) {
     words_ = "landing is not asked for: we are not in control";
   } else {
-    end(ControlState::Landing, "landing");
+    end(HandshakeState::Landing, "landing");
     goal_ = Goal::Landing;
   }
 }
 
 void Handshake::release() {
-  const bool was_in_control = state_ == ControlState::InControl;
-  if (state_ == ControlState::Unseen || state_ == ControlState::Released) {
+  const bool was_in_control = state_ == HandshakeState::InControl;
+  if (state_ == HandshakeState::Unseen || state_ == HandshakeState::Released) {
     goal_ = Goal::None;
   } else if (was_in_control && options_.take_control && profile_->hold_mode) {
-    end(ControlState::GivingBack, "control is being given back");
+    end(HandshakeState::GivingBack, "control is being given back");
     goal_ = Goal::GiveBack;
   } else {
-    end(ControlState::Released, was_in_control ? "control was given back" : "nothing is asked for");
+    end(HandshakeState::Released,
+        was_in_control ? "control was given back" : "nothing is asked for");
   }
 }
 
@@ -77,15 +78,15 @@ void Handshake::acknowledge(const mavlink::CommandAck& answer, double now_s) {
 
 StreamWish Handshake::wish() const {
   switch (state_) {
-    case ControlState::InControl:
+    case HandshakeState::InControl:
       return StreamWish::Commands;
-    case ControlState::GivingBack:
+    case HandshakeState::GivingBack:
       return StreamWish::Zeros;
-    case ControlState::Asking:
+    case HandshakeState::Asking:
       // Its mode may change before its heartbeat says so; and PX4 wants the stream first. While it
       // takes off it must not hear a setpoint.
       return step_ == Step::Mode || step_ == Step::Stream ? StreamWish::Zeros : StreamWish::Silence;
-    case ControlState::Seen: {
+    case HandshakeState::Seen: {
       const bool stream_first = profile_ && profile_->stream_first_s > 0;
       return !options_.take_control && stream_first ? StreamWish::Zeros : StreamWish::Silence;
     }
@@ -104,21 +105,21 @@ Handshake::Command Handshake::tick(const std::optional<VehicleState>& vehicle, c
 bool Handshake::is_there(const std::optional<VehicleState>& vehicle, double now_s) {
   if (!vehicle) return false;
   if (!(now_s - vehicle->heard_s <= options_.lost_s)) {
-    if (state_ != ControlState::Unseen) {
-      end(ControlState::Unseen, "the autopilot is no longer heard");
+    if (state_ != HandshakeState::Unseen) {
+      end(HandshakeState::Unseen, "the autopilot is no longer heard");
     }
     return false;
   }
   const std::optional<Autopilot> autopilot = autopilot_of(vehicle->heartbeat);
   if (!autopilot) {
-    if (state_ != ControlState::Refused) {
-      end(ControlState::Refused, "the vehicle is neither an ArduPilot nor a PX4 with rotors");
+    if (state_ != HandshakeState::Refused) {
+      end(HandshakeState::Refused, "the vehicle is neither an ArduPilot nor a PX4 with rotors");
     }
     return false;
   }
   profile_ = profile_of(*autopilot);
-  if (state_ == ControlState::Unseen) {
-    state_ = ControlState::Seen;
+  if (state_ == HandshakeState::Unseen) {
+    state_ = HandshakeState::Seen;
     if (goal_ == Goal::None) words_ = std::string(kestrel::name(*autopilot)) + " is heard";
   }
   return true;
@@ -128,21 +129,21 @@ void Handshake::watch(const VehicleState& vehicle) {
   const std::uint32_t now = vehicle.heartbeat.custom_mode;
   const std::string now_name = mode_name(profile_->autopilot, now);
   const bool obeys = now == profile_->control_mode && is_armed(vehicle.heartbeat);
-  if (state_ == ControlState::InControl && !obeys) {
+  if (state_ == HandshakeState::InControl && !obeys) {
     const std::string why = now == profile_->control_mode ? "the vehicle was disarmed"
                                                           : "the mode was changed to " + now_name;
-    end(options_.take_control ? ControlState::Released : ControlState::Seen,
+    end(options_.take_control ? HandshakeState::Released : HandshakeState::Seen,
         why + " by somebody else: control is theirs");
-  } else if (state_ == ControlState::Seen && !options_.take_control && obeys) {
-    end(ControlState::InControl, "the pilot chose " + now_name);
-  } else if (state_ == ControlState::Landing) {
+  } else if (state_ == HandshakeState::Seen && !options_.take_control && obeys) {
+    end(HandshakeState::InControl, "the pilot chose " + now_name);
+  } else if (state_ == HandshakeState::Landing) {
     if (now == profile_->control_mode || now == profile_->landing_mode) return;
-    end(ControlState::Released, "the mode was changed to " + now_name + " by somebody else");
-  } else if (state_ == ControlState::Asking || state_ == ControlState::Climbing) {
+    end(HandshakeState::Released, "the mode was changed to " + now_name + " by somebody else");
+  } else if (state_ == HandshakeState::Asking || state_ == HandshakeState::Climbing) {
     const bool is_takeoff = takes_off_ && (now == kPx4TakeOff || now == kPx4Hold) &&
                             profile_->autopilot == Autopilot::Px4;
     if (now == *mode_before_ || now == profile_->control_mode || is_takeoff) return;
-    end(ControlState::Released,
+    end(HandshakeState::Released,
         "the mode was changed to " + now_name + " by somebody else while control was asked for");
   }
 }

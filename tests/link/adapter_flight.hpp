@@ -40,7 +40,7 @@ class AdapterFlight {
     }
   }
 
-  ControlState control() const { return adapter.status(now_s).control; }
+  HandshakeState control() const { return adapter.status(now_s).control; }
   double speed() const { return vehicle.truth().velocity_ned_m_s.norm(); }
 
   template <class M>

@@ -28,7 +28,7 @@ class AdapterWithBoth : public testing::TestWithParam<Autopilot> {
   AdapterFlight in_control(const AutopilotOptions& options = {}) const {
     AdapterFlight flight(options, rules_of(GetParam()));
     flight.fly(5);
-    EXPECT_EQ(flight.control(), ControlState::InControl) << flight.adapter.status(0).words;
+    EXPECT_EQ(flight.control(), HandshakeState::InControl) << flight.adapter.status(0).words;
     return flight;
   }
   bool is_px4() const { return GetParam() == Autopilot::Px4; }
@@ -103,7 +103,7 @@ TEST_P(AdapterWithBoth, FallsSilentAfterTheZerosSoThatTheAutopilotsOwnFailsafeAc
     // The failsafe is a change of mode by somebody else: nothing is asked for again.
     flight.sees = true;
     flight.fly(5);
-    EXPECT_EQ(flight.control(), ControlState::Released);
+    EXPECT_EQ(flight.control(), HandshakeState::Released);
     EXPECT_EQ(flight.model.mode(), kPx4Hold);
   }
 }
@@ -114,7 +114,7 @@ TEST_P(AdapterWithBoth, SendsZerosForEverWhenAsked) {
   AdapterFlight flight = in_control(options);
   flight.sees = false;
   flight.fly(20);
-  EXPECT_EQ(flight.control(), ControlState::InControl);
+  EXPECT_EQ(flight.control(), HandshakeState::InControl);
   const long before = flight.model.counts().obeyed;
   flight.fly(1);
   EXPECT_GE(flight.model.counts().obeyed - before, 19);
@@ -143,7 +143,7 @@ TEST_P(AdapterWithBoth, BeatsOnceASecondAsTheCompanionOfTheVehicle) {
   EXPECT_NEAR(double(flight.sent<mavlink::Heartbeat>().size()), 10.5, 1);
   EXPECT_EQ(flight.wire.back().envelope.system_id, 42);
   EXPECT_EQ(flight.wire.back().envelope.component_id, 191);
-  EXPECT_EQ(flight.control(), ControlState::InControl);
+  EXPECT_EQ(flight.control(), HandshakeState::InControl);
   for (const auto& s : flight.sent<mavlink::SetPositionTarget>()) EXPECT_EQ(s.target_system, 42);
 }
 
@@ -152,7 +152,7 @@ TEST_P(AdapterWithBoth, ThePilotsSwitchEndsEverySetpointAtOnce) {
   flight.model.pilot_chooses(is_px4() ? px4_mode(3) : 0, flight.now_s);
   const double switched_s = flight.now_s;
   flight.fly(1.2);  // until the next heartbeat and the line
-  EXPECT_EQ(flight.control(), ControlState::Released);
+  EXPECT_EQ(flight.control(), HandshakeState::Released);
   const long setpoints = flight.model.counts().setpoints;
   const std::size_t commands = flight.sent<mavlink::CommandLong>().size();
   flight.fly(30);
@@ -192,7 +192,7 @@ TEST_P(AdapterWithBoth, AVehicleThatIsNoLongerHeardGetsZerosAndThenNothing) {
   flight.beats = false;
   const double lost_s = flight.now_s;
   flight.fly(12);
-  EXPECT_EQ(flight.control(), ControlState::Unseen);
+  EXPECT_EQ(flight.control(), HandshakeState::Unseen);
   EXPECT_EQ(moving_setpoints(flight, lost_s + 5.2), 0);
   const auto last = flight.sent<mavlink::SetPositionTarget>().back();
   EXPECT_TRUE(velocity_of(last)->vector().isZero(0));
@@ -203,7 +203,7 @@ TEST_P(AdapterWithBoth, TakesOffOnlyWithLeaveAndThenFlies) {
   ground.starts_armed = false;
   AdapterFlight refused({}, ground);
   refused.fly(5);
-  EXPECT_EQ(refused.control(), ControlState::Refused);
+  EXPECT_EQ(refused.control(), HandshakeState::Refused);
   EXPECT_FALSE(refused.model.armed());
   EXPECT_EQ(refused.model.counts().setpoints, 0);
   AutopilotOptions options;
@@ -211,12 +211,12 @@ TEST_P(AdapterWithBoth, TakesOffOnlyWithLeaveAndThenFlies) {
   options.handshake.takeoff_m = 3;
   AdapterFlight flight(options, ground);
   flight.fly(15);
-  EXPECT_EQ(flight.control(), ControlState::InControl) << flight.adapter.status(0).words;
+  EXPECT_EQ(flight.control(), HandshakeState::InControl) << flight.adapter.status(0).words;
   EXPECT_LT(flight.vehicle.truth().position_ned_m.z(), -2);
   EXPECT_NEAR(flight.vehicle.truth().velocity_ned_m_s.x(), 1, 0.01);
   flight.adapter.request_landing();
   flight.fly(12);
-  EXPECT_EQ(flight.control(), ControlState::Released);
+  EXPECT_EQ(flight.control(), HandshakeState::Released);
   EXPECT_FALSE(flight.model.armed());
 }
 
@@ -263,7 +263,7 @@ TEST_P(AdapterWithBoth, ListensToOneVehicleAlone) {
   }
   flight.adapter.receive(mavlink::encode(beat, {1, 100, 0}).bytes(), flight.now_s);  // a camera
   flight.step();
-  EXPECT_EQ(flight.control(), ControlState::InControl);
+  EXPECT_EQ(flight.control(), HandshakeState::InControl);
   EXPECT_EQ(flight.adapter.status(0).counts.foreign, 4);
 }
 

@@ -179,5 +179,12 @@ TEST(Frame, OfAnUnknownMessageIsSeenButNotRead) {
   EXPECT_EQ(test::copy(view.bytes), frame);
 }
 
+TEST(Frame, OfAnUnknownMessageWithUnknownFlagsIsRefused) {
+  const Buffer frame = test::hand_made_frame(86, {1, 2, 3}, 5, 0x02);
+  const Parsed parsed = parse(test::view(frame));
+  EXPECT_EQ(std::get<Refusal>(parsed.content), Refusal::UnknownMessage);
+  EXPECT_EQ(parsed.size, frame.size());
+}
+
 }  // namespace
 }  // namespace kestrel::mavlink

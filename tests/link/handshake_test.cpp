@@ -97,9 +97,9 @@ INSTANTIATE_TEST_SUITE_P(Autopilots, HandshakeWithBoth,
 
 TEST_P(HandshakeWithBoth, AsksForNothingByItself) {
   Story story(GetParam());
-  EXPECT_EQ(story.handshake.state(), ControlState::Unseen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Unseen);
   story.run(10);
-  EXPECT_EQ(story.handshake.state(), ControlState::Seen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Seen);
   EXPECT_TRUE(story.sent.empty());
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
 }
@@ -110,7 +110,7 @@ TEST_P(HandshakeWithBoth, TakesControlWithOneCommand) {
   story.run(3);
   EXPECT_EQ(story.commands(), std::vector<int>{176});
   EXPECT_EQ(story.vehicle.heartbeat.custom_mode, profile().control_mode);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Commands);
   story.handshake.request_control();
   story.run(1);
@@ -136,7 +136,7 @@ TEST_P(HandshakeWithBoth, AsksFourTimesAndThenSaysThatNobodyAnswered) {
   story.handshake.request_control();
   story.run(60);
   EXPECT_EQ(story.sent.size(), 4u);
-  EXPECT_EQ(story.handshake.state(), ControlState::Refused);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
   EXPECT_EQ(story.handshake.words(), "mode: no answer to 4 tries");
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
 }
@@ -149,7 +149,7 @@ TEST_P(HandshakeWithBoth, ALostAnswerDoesNotMatterWhenTheModeIsReported) {
   ASSERT_FALSE(story.sent.empty());
   story.vehicle.heartbeat.custom_mode = profile().control_mode;
   story.run(0.1);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
 }
 
 TEST_P(HandshakeWithBoth, SaysThatItWasDeniedOrNotDone) {
@@ -157,7 +157,7 @@ TEST_P(HandshakeWithBoth, SaysThatItWasDeniedOrNotDone) {
   denied.refuses = kCommandMode;
   denied.handshake.request_control();
   denied.run(10);
-  EXPECT_EQ(denied.handshake.state(), ControlState::Refused);
+  EXPECT_EQ(denied.handshake.state(), HandshakeState::Refused);
   EXPECT_EQ(denied.handshake.words(), "mode: denied");
   EXPECT_EQ(denied.sent.size(), 1u);
   Story idle(GetParam());
@@ -171,10 +171,10 @@ TEST_P(HandshakeWithBoth, ThePilotTakesOverAtOnceAndIsNeverOverruled) {
   Story story(GetParam());
   story.handshake.request_control();
   story.run(3);
-  ASSERT_EQ(story.handshake.state(), ControlState::InControl);
+  ASSERT_EQ(story.handshake.state(), HandshakeState::InControl);
   story.vehicle.heartbeat.custom_mode = other_mode();
   story.run(0.1);
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
   EXPECT_THAT(story.handshake.words(), HasSubstr("by somebody else"));
   const std::size_t asked = story.sent.size();
@@ -182,12 +182,12 @@ TEST_P(HandshakeWithBoth, ThePilotTakesOverAtOnceAndIsNeverOverruled) {
   // Nor does the mode alone bring us back.
   story.vehicle.heartbeat.custom_mode = profile().control_mode;
   story.run(10);
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
   EXPECT_EQ(story.sent.size(), asked);
   story.vehicle.heartbeat.custom_mode = other_mode();
   story.handshake.request_control();
   story.run(3);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
 }
 
 TEST_P(HandshakeWithBoth, ThePilotTakesOverWhileControlIsAskedFor) {
@@ -198,7 +198,7 @@ TEST_P(HandshakeWithBoth, ThePilotTakesOverWhileControlIsAskedFor) {
   const std::size_t asked = story.sent.size();
   story.vehicle.heartbeat.custom_mode = other_mode();
   story.run(10);
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
   EXPECT_EQ(story.sent.size(), asked);
 }
 
@@ -208,7 +208,7 @@ TEST_P(HandshakeWithBoth, AVehicleThatIsDisarmedIsTheirs) {
   story.run(3);
   story.vehicle.heartbeat.base_mode = 0;
   story.run(0.1);
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
 }
 
 TEST_P(HandshakeWithBoth, NeverArmsWithoutLeave) {
@@ -219,7 +219,7 @@ TEST_P(HandshakeWithBoth, NeverArmsWithoutLeave) {
     story.handshake.request_control();
     story.run(10);
     EXPECT_TRUE(story.sent.empty());
-    EXPECT_EQ(story.handshake.state(), ControlState::Refused);
+    EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
     EXPECT_THAT(story.handshake.words(), HasSubstr("allow_arming"));
     EXPECT_THAT(story.handshake.words(), HasSubstr(armed ? "ground" : "not armed"));
   }
@@ -242,17 +242,17 @@ TEST_P(HandshakeWithBoth, TakesOffInTheOrderOfTheAutopilotAndThenHasControl) {
   const bool ardupilot = GetParam() == Autopilot::ArduPilot;
   EXPECT_EQ(story.commands(),
             ardupilot ? (std::vector<int>{176, 400, 22}) : (std::vector<int>{400, 176}));
-  EXPECT_EQ(story.handshake.state(), ControlState::Climbing);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Climbing);
   // A setpoint would break ArduPilot's take-off off.
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
   story.vehicle.landed = Landed::InAir;
   story.vehicle.down_m = 0.2 - 4.4;
   story.run(1);
-  EXPECT_EQ(story.handshake.state(), ControlState::Climbing);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Climbing);
   story.vehicle.down_m = 0.2 - 4.6;
   if (!ardupilot) story.vehicle.heartbeat.custom_mode = kPx4Hold;
   story.run(2);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
   EXPECT_EQ(story.vehicle.heartbeat.custom_mode, profile().control_mode);
 }
 
@@ -261,7 +261,7 @@ TEST_P(HandshakeWithBoth, GivesUpATakeOffThatDoesNotClimb) {
   story.stand_on_the_ground();
   story.handshake.request_control();
   story.run(70);
-  EXPECT_EQ(story.handshake.state(), ControlState::Refused);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
   EXPECT_THAT(story.handshake.words(), HasSubstr("take-off"));
 }
 
@@ -271,7 +271,7 @@ TEST_P(HandshakeWithBoth, LandsOnlyWithLeaveAndInControl) {
   plain.run(3);
   plain.handshake.request_landing();
   plain.run(3);
-  EXPECT_EQ(plain.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(plain.handshake.state(), HandshakeState::InControl);
   EXPECT_THAT(plain.handshake.words(), HasSubstr("allow_arming"));
   Story story(GetParam(), may_arm(0));
   story.handshake.request_landing();
@@ -282,11 +282,11 @@ TEST_P(HandshakeWithBoth, LandsOnlyWithLeaveAndInControl) {
   story.handshake.request_landing();
   story.run(1);
   EXPECT_EQ(story.vehicle.heartbeat.custom_mode, profile().landing_mode);
-  EXPECT_EQ(story.handshake.state(), ControlState::Landing);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Landing);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
   story.vehicle.landed = Landed::OnGround;
   story.run(0.1);
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
 }
 
 TEST_P(HandshakeWithBoth, GivesControlBack) {
@@ -299,7 +299,7 @@ TEST_P(HandshakeWithBoth, GivesControlBack) {
     story.run(1);
     EXPECT_EQ(story.vehicle.heartbeat.custom_mode, kPx4Hold);
   }
-  EXPECT_EQ(story.handshake.state(), ControlState::Released);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
 }
 
@@ -309,22 +309,22 @@ TEST_P(HandshakeWithBoth, AnAutopilotThatIsNoLongerHeardIsNotControlled) {
   story.run(3);
   story.beats = false;
   story.run(4.9);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
   story.run(0.3);
-  EXPECT_EQ(story.handshake.state(), ControlState::Unseen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Unseen);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Silence);
   story.beats = true;
   story.run(5);
-  EXPECT_EQ(story.handshake.state(), ControlState::Seen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Seen);
 }
 
 TEST_P(HandshakeWithBoth, AsksForControlOnceTheAutopilotIsHeard) {
   Story story(GetParam());
   story.handshake.request_control();
   EXPECT_FALSE(story.handshake.tick(std::nullopt, {1, 1}, 0));
-  EXPECT_EQ(story.handshake.state(), ControlState::Unseen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Unseen);
   story.run(3);
-  EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
 }
 
 TEST_P(HandshakeWithBoth, LeavesTheModeToThePilotWhenToldTo) {
@@ -334,17 +334,17 @@ TEST_P(HandshakeWithBoth, LeavesTheModeToThePilotWhenToldTo) {
   story.handshake.request_control();
   EXPECT_THAT(story.handshake.words(), HasSubstr("take_control"));
   story.run(3);
-  EXPECT_EQ(story.handshake.state(), ControlState::Seen);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Seen);
   // PX4's pilot can choose OFFBOARD only while the stream runs.
   EXPECT_EQ(story.handshake.wish(),
             GetParam() == Autopilot::Px4 ? StreamWish::Zeros : StreamWish::Silence);
   for (int i = 0; i < 3; ++i) {
     story.vehicle.heartbeat.custom_mode = profile().control_mode;
     story.run(0.1);
-    EXPECT_EQ(story.handshake.state(), ControlState::InControl);
+    EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
     story.vehicle.heartbeat.custom_mode = other_mode();
     story.run(0.1);
-    EXPECT_EQ(story.handshake.state(), ControlState::Seen);
+    EXPECT_EQ(story.handshake.state(), HandshakeState::Seen);
   }
   EXPECT_TRUE(story.sent.empty());
 }
@@ -355,7 +355,7 @@ TEST(Handshake, RefusesAVehicleWhoseRulesAreNotKnown) {
   story.handshake.request_control();
   story.run(5);
   EXPECT_TRUE(story.sent.empty());
-  EXPECT_EQ(story.handshake.state(), ControlState::Refused);
+  EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
 }
 
 TEST(HandshakeOptions, NameWhatIsOutOfRange) {

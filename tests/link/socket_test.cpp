@@ -106,6 +106,25 @@ TEST(Socket, AnyAddressOfIpv6LeavesIpv4Alone) {
   EXPECT_TRUE(four.receive(kPatience_s));
 }
 
+TEST(Socket, ABoundOneAnswersManyAndTakesWhatIsThere) {
+  for (const Address& loopback : test::loopbacks()) {
+    UdpSocket server = UdpSocket::bound_to(loopback);
+    EXPECT_FALSE(server.take());
+    UdpSocket first = UdpSocket::connected_to(server.local());
+    UdpSocket second = UdpSocket::connected_to(server.local());
+    const test::Buffer byte = {7};
+    EXPECT_EQ(server.send_to(first.local(), test::view(byte)), Sent::Yes);
+    EXPECT_EQ(server.send_to(second.local(), test::view(byte)), Sent::Yes);
+    for (UdpSocket* client : {&first, &second}) {
+      const std::optional<Datagram> datagram = client->receive(kPatience_s);
+      ASSERT_TRUE(datagram);
+      EXPECT_EQ(datagram->from, server.local());
+      EXPECT_FALSE(client->take());
+    }
+    EXPECT_EQ(server.send_to({"nowhere", 1}, test::view(byte)), Sent::No);
+  }
+}
+
 std::ptrdiff_t open_descriptors() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
                        std::filesystem::directory_iterator());

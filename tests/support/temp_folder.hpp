@@ -13,8 +13,9 @@ namespace kestrel::test {
 /// A folder of its own for one test, removed at its end.
 class TempFolder {
  public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "kestrel_XXXXXX").string();
+  TempFolder() : TempFolder(std::filesystem::temp_directory_path()) {}
+  explicit TempFolder(const std::filesystem::path& parent) {
+    std::string name = (parent / "kestrel_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
@@ -39,6 +40,12 @@ class TempFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Where files are kept in memory, if there is such a place: for tests that write very often.
+inline std::filesystem::path memory_folder() {
+  const std::filesystem::path memory = "/dev/shm";
+  return ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+}
 
 /// The message with which an action fails, or "nothing was thrown".
 template <class Action>

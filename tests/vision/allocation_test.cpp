@@ -1,6 +1,4 @@
-// Nothing is allocated while the pixels are followed. malloc is replaced in this program by one
-// that counts: operator new, Eigen and cv::Mat all end there.
-#include <atomic>
+// Nothing is allocated while the pixels are followed.
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -11,51 +9,13 @@
 
 #include "kestrel/vision/tracker.hpp"
 
+#include "support/allocations.hpp"
 #include "support/planted_target.hpp"
-
-namespace {
-
-std::atomic<int> allocations{0};
-
-}  // namespace
-
-extern "C" {
-
-void* __libc_malloc(std::size_t size);                       // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t count, std::size_t size);    // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* memory, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t align, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
-
-void* malloc(std::size_t size) noexcept {
-  ++allocations;
-  return __libc_malloc(size);
-}
-
-void* calloc(std::size_t count, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-
-void* realloc(void* memory, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_realloc(memory, size);
-}
-
-void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_memalign(align, size);
-}
-
-int posix_memalign(void** memory, std::size_t align, std::size_t size) noexcept {
-  ++allocations;
-  *memory = __libc_memalign(align, size);
-  return *memory == nullptr ? 12 : 0;  // ENOMEM
-}
-
-}  // extern "C"
 
 namespace kestrel {
 namespace {
+
+using test::allocations;
 
 constexpr double kFrame_s = 0.04;
 

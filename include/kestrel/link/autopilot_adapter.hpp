@@ -43,7 +43,7 @@ struct AdapterCounts {
 
 /// Where the adapter stands, for a human and for a log.
 struct AdapterStatus {
-  ControlState control = ControlState::Unseen;
+  HandshakeState control = HandshakeState::Unseen;
   std::string words;  // why
   std::optional<Autopilot> autopilot;
   std::optional<VehicleState> vehicle;

@@ -79,7 +79,7 @@ struct EncodedFrame {
 EncodedFrame encode(const Message& message, const Envelope& envelope);
 
 /// The frame that starts with the first byte, or why there is none and the size it claims. Of an
-/// unknown message a view without info.
+/// unknown message a view without info, or UnknownMessage when it has flags unknown too.
 Parsed frame_at_start(Bytes bytes);
 
 /// What stands at the start of a datagram: a frame, or why not and how many bytes to pass over.

@@ -12,7 +12,7 @@
 namespace kestrel {
 
 /// Where we stand with the autopilot.
-enum class ControlState {
+enum class HandshakeState {
   Unseen,      // no autopilot is heard, or no longer
   Seen,        // heard; nothing is asked of it
   Asking,      // for its mode, its arming, a take-off
@@ -26,7 +26,7 @@ enum class ControlState {
 
 /// "unseen", "seen", "asking", "climbing", "in control", "landing", "giving back", "released",
 /// "refused".
-const char* name(ControlState state);
+const char* name(HandshakeState state);
 
 /// What may be streamed to the autopilot.
 enum class StreamWish { Silence, Zeros, Commands };
@@ -71,7 +71,7 @@ class Handshake {
   std::optional<mavlink::CommandLong> tick(const std::optional<VehicleState>& vehicle,
                                            const Recipient& to, double now_s);
 
-  ControlState state() const { return state_; }
+  HandshakeState state() const { return state_; }
   StreamWish wish() const;
 
   /// The rules of the autopilot; empty before one that is known was heard.
@@ -95,10 +95,10 @@ class Handshake {
   Command ask(Step step, const mavlink::CommandLong& command, double now_s);
   bool may_take_off(const VehicleState& vehicle);
   bool is_up(const VehicleState& vehicle) const;
-  void end(ControlState state, const std::string& words);
+  void end(HandshakeState state, const std::string& words);
 
   HandshakeOptions options_;
-  ControlState state_ = ControlState::Unseen;
+  HandshakeState state_ = HandshakeState::Unseen;
   std::string words_ = "no autopilot has been heard";
   std::optional<AutopilotProfile> profile_;
   Goal goal_ = Goal::None;

@@ -46,10 +46,20 @@ class UdpSocket {
   /// Sends one datagram to the connected peer; never waits.
   Sent send(Bytes datagram) noexcept;
 
+  /// The same to any address of the socket's family, from a socket that is not connected.
+  Sent send_to(const Address& address, Bytes datagram) noexcept;
+
   /// The next datagram, waiting up to timeout_s for it (not at all when that is not positive).
   /// Empty after that time, when a signal came in between (so that the caller can look why), or
   /// when the peer refused an earlier datagram. Throws std::system_error when the socket is broken.
   std::optional<Datagram> receive(double timeout_s);
+
+  /// The next datagram that is here already; empty when there is none or the network complains,
+  /// which it does once for each complaint.
+  std::optional<Datagram> take() noexcept;
+
+  /// For who waits for several sockets at once.
+  int descriptor() const { return descriptor_; }
 
  private:
   explicit UdpSocket(int descriptor);

@@ -14,14 +14,14 @@ Handshake::Command Handshake::pursue(const VehicleState& vehicle, const Recipien
       return pursue_control(vehicle, to, now_s);
     case Goal::Landing:
       if (vehicle.landed == Landed::OnGround || !is_armed(vehicle.heartbeat)) {
-        end(ControlState::Released, "landed");
+        end(HandshakeState::Released, "landed");
         return std::nullopt;
       }
       if (vehicle.heartbeat.custom_mode == profile_->landing_mode) return std::nullopt;
       return ask(Step::Land, mode_request(*profile_, profile_->landing_mode, to), now_s);
     case Goal::GiveBack:
       if (vehicle.heartbeat.custom_mode != profile_->control_mode) {
-        end(ControlState::Released, "control was given back");
+        end(HandshakeState::Released, "control was given back");
         return std::nullopt;
       }
       return ask(Step::Hold, mode_request(*profile_, *profile_->hold_mode, to), now_s);
@@ -36,11 +36,11 @@ Handshake::Command Handshake::pursue_control(const VehicleState& vehicle, const 
     takes_off_ = vehicle.landed == Landed::OnGround || !is_armed(vehicle.heartbeat);
     ground_m_ = vehicle.down_m.value_or(0);
     if (takes_off_ && !may_take_off(vehicle)) return std::nullopt;
-    state_ = ControlState::Asking;
+    state_ = HandshakeState::Asking;
   }
   if (takes_off_) return pursue_takeoff(vehicle, to, now_s);
   if (!is_armed(vehicle.heartbeat)) {
-    end(ControlState::Refused, "the vehicle was disarmed while control was asked for");
+    end(HandshakeState::Refused, "the vehicle was disarmed while control was asked for");
     return std::nullopt;
   }
   return mode(vehicle, to, now_s);
@@ -50,7 +50,7 @@ bool Handshake::may_take_off(const VehicleState& vehicle) {
   const std::string where =
       is_armed(vehicle.heartbeat) ? "the vehicle stands on the ground" : "the vehicle is not armed";
   if (options_.takeoff_m > 0) return true;  // check() has seen to allow_arming
-  end(ControlState::Refused,
+  end(HandshakeState::Refused,
       where + (options_.allow_arming ? ", and no height to take off to was given (takeoff_m)"
                                      : ", and arming is not allowed (allow_arming)"));
   return false;
@@ -59,7 +59,7 @@ bool Handshake::may_take_off(const VehicleState& vehicle) {
 Handshake::Command Handshake::mode(const VehicleState& vehicle, const Recipient& to, double now_s) {
   if (vehicle.heartbeat.custom_mode == profile_->control_mode) {
     if (!takes_off_) {
-      end(ControlState::InControl,
+      end(HandshakeState::InControl,
           "in control: " + mode_name(profile_->autopilot, profile_->control_mode));
     }
     return std::nullopt;
@@ -84,7 +84,7 @@ Handshake::Command Handshake::pursue_takeoff(const VehicleState& vehicle, const 
   if (!is_armed(vehicle.heartbeat)) return ask(Step::Arm, arm_request(to), now_s);
   if (step_ == Step::TakeOff && request_->state() == RequestState::Accepted) {
     climb_began_s_ = now_s;
-    state_ = ControlState::Climbing;
+    state_ = HandshakeState::Climbing;
     words_ = "taking off";
     return std::nullopt;
   }
@@ -103,13 +103,13 @@ Handshake::Command Handshake::climb(const VehicleState& vehicle, double now_s) {
   if (is_up(vehicle)) {
     takes_off_ = false;
     mode_before_ = vehicle.heartbeat.custom_mode;
-    state_ = ControlState::Asking;
+    state_ = HandshakeState::Asking;
     step_.reset();
     request_.reset();
   } else if (!is_armed(vehicle.heartbeat)) {
-    end(ControlState::Released, "the vehicle was disarmed while it took off");
+    end(HandshakeState::Released, "the vehicle was disarmed while it took off");
   } else if (now_s - *climb_began_s_ > options_.climb_s) {
-    end(ControlState::Refused, "the take-off has not reached its height in time");
+    end(HandshakeState::Refused, "the take-off has not reached its height in time");
   }
   return std::nullopt;
 }
@@ -126,7 +126,7 @@ Handshake::Command Handshake::ask(Step step, const mavlink::CommandLong& command
   if (request_->state() == RequestState::Refused || forgotten) {
     const std::string why =
         forgotten ? command_name(command.command) + ": accepted, but not done" : request_->words();
-    end(goal_ == Goal::GiveBack ? ControlState::Released : ControlState::Refused, why);
+    end(goal_ == Goal::GiveBack ? HandshakeState::Released : HandshakeState::Refused, why);
     return std::nullopt;
   }
   return due;
