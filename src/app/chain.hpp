@@ -21,6 +21,8 @@ struct Chain {
   const Task& task;
   RunRecorder& recorder;
   Pace pace = Pace::AsFastAsPossible;
+  /// The helicopter's attitude at a stamp, for frames that come without; null: nobody knows.
+  std::function<std::optional<Attitude>(double stamp_s)> attitude{};
 };
 
 /// How a run ended.

@@ -20,5 +20,6 @@ int run(const CompareArguments& arguments);
 int run(const MergeArguments& arguments);
 int run(const LawsArguments& arguments);
 int run(const ExplainArguments& arguments);
+int run(const JogArguments& arguments);
 
 }  // namespace kestrel::app
