@@ -17,19 +17,20 @@ VehicleTruth start(const AutopilotModelOptions& rules) {
   return truth;
 }
 
-AutopilotModelOptions booted_now(AutopilotModelOptions rules) {
-  rules.boot_s = link_clock_s();
+AutopilotModelOptions booted_at(double boot_s, AutopilotModelOptions rules) {
+  rules.boot_s = boot_s;
   return rules;
 }
 
 }  // namespace
 
 StandIn::StandIn(const Address& at, const AutopilotModelOptions& rules)
-    : socket_(UdpSocket::bound_to(at)),
-      model_(booted_now(rules)),
+    : booted_s_(link_clock_s()),
+      socket_(UdpSocket::bound_to(at)),
+      model_(booted_at(booted_s_, rules)),
       vehicle_(start(rules)),
       received_(rules.me),
-      flown_s_(link_clock_s()) {}
+      flown_s_(booted_s_) {}
 
 std::vector<ReceivedCommand> StandIn::poll(double timeout_s) {
   std::vector<ReceivedCommand> commands;
@@ -71,7 +72,7 @@ void StandIn::send_to(const Address& peer, const AutopilotModel::Frames& frames)
 std::vector<std::string> StandIn::take_events() {
   std::vector<std::string> lines;
   for (const AutopilotEvent& event : model_.take_events()) {
-    lines.push_back(fmt::format("{:9.3f} s  {}", event.at_s, event.what));
+    lines.push_back(fmt::format("{:9.3f} s  {}", event.at_s - booted_s_, event.what));
   }
   return lines;
 }

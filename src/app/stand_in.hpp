@@ -41,6 +41,7 @@ class StandIn {
   void send_to(const Address& peer, const AutopilotModel::Frames& frames);
   void fly();
 
+  const double booted_s_;
   UdpSocket socket_;
   AutopilotModel model_;
   KinematicVehicle vehicle_;

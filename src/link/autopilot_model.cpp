@@ -62,35 +62,39 @@ AutopilotModel::Frames AutopilotModel::receive(Bytes datagram, const VehicleTrut
   for (Bytes rest = datagram; alive_ && rest.size > 0;) {
     const mavlink::Decoded decoded = mavlink::decode(rest);
     rest = rest.after(decoded.size);
-    const auto* packet = std::get_if<mavlink::Packet>(&decoded.content);
-    if (packet == nullptr) {
+    if (const auto* packet = std::get_if<mavlink::Packet>(&decoded.content)) {
+      take(*packet, truth, now_s, answers);
+    } else {
       ++counts_.malformed;
-      continue;
-    }
-    if (const auto* setpoint = std::get_if<mavlink::SetPositionTarget>(&packet->message)) {
-      obey(*setpoint, truth, now_s);
-    } else if (const auto* command = std::get_if<mavlink::CommandLong>(&packet->message)) {
-      if (!concerns(command->target_system, options_.me.system_id) ||
-          !concerns(command->target_component, options_.me.component_id)) {
-        ++counts_.misaddressed;
-        continue;
-      }
-      ++counts_.commands;
-      mavlink::CommandAck ack;
-      ack.command = command->command;
-      ack.result = obey(*command, truth, now_s);
-      ack.target_system = packet->envelope.system_id;
-      ack.target_component = packet->envelope.component_id;
-      answers.push_back(framed(ack));
-    } else if (const auto* time = std::get_if<mavlink::TimeSync>(&packet->message)) {
-      const auto answer = time_answer(*time, options_.me.system_id, options_.me.component_id,
-                                      now_s - options_.boot_s);
-      if (answer) answers.push_back(framed(*answer));
-    } else if (std::holds_alternative<mavlink::Heartbeat>(packet->message)) {
-      ++counts_.heartbeats;
     }
   }
   return answers;
+}
+
+void AutopilotModel::take(const mavlink::Packet& packet, const VehicleTruth& truth, double now_s,
+                          Frames& answers) {
+  if (const auto* setpoint = std::get_if<mavlink::SetPositionTarget>(&packet.message)) {
+    obey(*setpoint, truth, now_s);
+  } else if (const auto* command = std::get_if<mavlink::CommandLong>(&packet.message)) {
+    if (!concerns(command->target_system, options_.me.system_id) ||
+        !concerns(command->target_component, options_.me.component_id)) {
+      ++counts_.misaddressed;
+      return;
+    }
+    ++counts_.commands;
+    mavlink::CommandAck ack;
+    ack.command = command->command;
+    ack.result = obey(*command, truth, now_s);
+    ack.target_system = packet.envelope.system_id;
+    ack.target_component = packet.envelope.component_id;
+    answers.push_back(framed(ack));
+  } else if (const auto* time = std::get_if<mavlink::TimeSync>(&packet.message)) {
+    const auto answer = time_answer(*time, options_.me.system_id, options_.me.component_id,
+                                    now_s - options_.boot_s);
+    if (answer) answers.push_back(framed(*answer));
+  } else if (std::holds_alternative<mavlink::Heartbeat>(packet.message)) {
+    ++counts_.heartbeats;
+  }
 }
 
 void AutopilotModel::obey(const mavlink::SetPositionTarget& setpoint, const VehicleTruth& truth,
@@ -161,32 +165,6 @@ void AutopilotModel::time_out(double now_s) {
   } else {
     tell(now_s, "no setpoint: stopping");
   }
-}
-
-void AutopilotModel::climb_or_sink(const VehicleTruth& truth, double now_s) {
-  const double down_m = truth.position_ned_m.z();
-  if (climb_to_m_) {
-    reference_ = {};
-    reference_.velocity_ned_m_s.z() = -options_.climb_m_s;
-    if (down_m > *climb_to_m_) return;
-    climb_to_m_.reset();
-    reference_ = {};
-    tell(now_s, "the take-off is complete");
-    if (profile_.hold_mode) enter(*profile_.hold_mode, now_s);
-  } else if (mode_ == profile_.landing_mode && armed_) {
-    reference_ = {};
-    reference_.velocity_ned_m_s.z() = options_.sink_m_s;
-    if (down_m < 0) return;
-    armed_ = false;
-    reference_ = {};
-    tell(now_s, "landed and disarmed");
-  }
-}
-
-Landed AutopilotModel::landed(const VehicleTruth& truth) const {
-  if (climb_to_m_) return Landed::TakingOff;
-  if (truth.position_ned_m.z() >= 0) return Landed::OnGround;
-  return mode_ == profile_.landing_mode ? Landed::Landing : Landed::InAir;
 }
 
 void AutopilotModel::pilot_chooses(std::uint32_t mode, double now_s) {

@@ -17,17 +17,17 @@ namespace kestrel {
 namespace {
 
 /// The stand-in for an autopilot behind a real socket, in a thread of its own.
-class Autopilots {
+class ThreadedAutopilot {
  public:
-  explicit Autopilots(Autopilot which) : model_(rules(which)), vehicle_(high_up()) {
+  explicit ThreadedAutopilot(Autopilot which) : model_(rules(which)), vehicle_(high_up()) {
     thread_ = std::thread([this] { run(); });
   }
-  ~Autopilots() {
+  ~ThreadedAutopilot() {
     ending_ = true;
     thread_.join();
   }
-  Autopilots(const Autopilots&) = delete;
-  Autopilots& operator=(const Autopilots&) = delete;
+  ThreadedAutopilot(const ThreadedAutopilot&) = delete;
+  ThreadedAutopilot& operator=(const ThreadedAutopilot&) = delete;
 
   Address address() const { return socket_.local(); }
   double north_m_s() const { return north_m_s_; }
@@ -48,6 +48,9 @@ class Autopilots {
   }
 
   void run() {
+    // Its mode is to be told at once, not a second later: these tests are in a hurry.
+    const auto often = mavlink::encode(interval_request(0, 50, {1, 1}), {255, 190, 0});
+    model_.receive(often.bytes(), vehicle_.truth(), link_clock_s());
     std::optional<Address> peer;
     double last_s = link_clock_s();
     const auto answer = [&](const AutopilotModel::Frames& frames) {
@@ -101,7 +104,7 @@ bool until(
 }
 
 TEST(AutopilotLink, FliesAnAutopilotBehindASocketAndGivesItBack) {
-  Autopilots autopilot(Autopilot::ArduPilot);
+  ThreadedAutopilot autopilot(Autopilot::ArduPilot);
   AutopilotOptions options;
   options.farewell_s = 0.1;
   AutopilotLink link(autopilot.address(), options, 0.0);
@@ -121,7 +124,7 @@ TEST(AutopilotLink, FliesAnAutopilotBehindASocketAndGivesItBack) {
 
 // The vision thread is stuck, the process lives: zeros, by the thread of the link.
 TEST(AutopilotLink, ZerosWhenNothingIsDecidedAnyMore) {
-  Autopilots autopilot(Autopilot::ArduPilot);
+  ThreadedAutopilot autopilot(Autopilot::ArduPilot);
   AutopilotOptions options;
   options.farewell_s = 0;
   options.stream.time_to_live_s = 0.1;

@@ -89,6 +89,8 @@ class AutopilotModel {
   std::vector<AutopilotEvent> take_events();
 
  private:
+  void take(const mavlink::Packet& packet, const VehicleTruth& truth, double now_s,
+            Frames& answers);
   void obey(const mavlink::SetPositionTarget& setpoint, const VehicleTruth& truth, double now_s);
   std::uint8_t obey(const mavlink::CommandLong& command, const VehicleTruth& truth, double now_s);
   std::uint8_t choose_mode(const mavlink::CommandLong& command, const VehicleTruth& truth,

@@ -72,6 +72,32 @@ std::uint8_t AutopilotModel::take_off(double height_m, const VehicleTruth& truth
   return kAccepted;
 }
 
+void AutopilotModel::climb_or_sink(const VehicleTruth& truth, double now_s) {
+  const double down_m = truth.position_ned_m.z();
+  if (climb_to_m_) {
+    reference_ = {};
+    reference_.velocity_ned_m_s.z() = -options_.climb_m_s;
+    if (down_m > *climb_to_m_) return;
+    climb_to_m_.reset();
+    reference_ = {};
+    tell(now_s, "the take-off is complete");
+    if (profile_.hold_mode) enter(*profile_.hold_mode, now_s);
+  } else if (mode_ == profile_.landing_mode && armed_) {
+    reference_ = {};
+    reference_.velocity_ned_m_s.z() = options_.sink_m_s;
+    if (down_m < 0) return;
+    armed_ = false;
+    reference_ = {};
+    tell(now_s, "landed and disarmed");
+  }
+}
+
+Landed AutopilotModel::landed(const VehicleTruth& truth) const {
+  if (climb_to_m_) return Landed::TakingOff;
+  if (truth.position_ned_m.z() >= 0) return Landed::OnGround;
+  return mode_ == profile_.landing_mode ? Landed::Landing : Landed::InAir;
+}
+
 bool AutopilotModel::is_due(std::uint32_t message_id, double now_s) {
   double& next_s = next_s_.try_emplace(message_id, now_s).first->second;
   if (now_s < next_s) return false;
