@@ -43,7 +43,8 @@ void Handshake::request_control() {
     words_ = "take_control is off: the pilot chooses the mode";
   } else if (goal_ != Goal::Control && state_ != HandshakeState::InControl) {
     const bool is_heard = profile_ && state_ != HandshakeState::Unseen;
-    end(is_heard ? HandshakeState::Seen : HandshakeState::Unseen, "control is asked for");
+    end(is_heard ? HandshakeState::Seen : HandshakeState::Unseen,
+        is_heard ? "control is asked for" : "no autopilot has been heard");
     goal_ = Goal::Control;
   }
 }

@@ -111,8 +111,8 @@ TEST(AutopilotLink, FliesAnAutopilotBehindASocketAndGivesItBack) {
   const auto frame = [&] { link.send({1, 0, 0, 0}, link_clock_s()); };
   EXPECT_TRUE(until([&] { return autopilot.north_m_s() > 0.3; }, frame));
   EXPECT_EQ(link.status().control, HandshakeState::InControl);
-  EXPECT_TRUE(link.attitude_at(link_clock_s() - 0.02));
-  EXPECT_TRUE(link.status().clock);
+  EXPECT_TRUE(until([&] { return link.attitude_at(link_clock_s() - 0.02).has_value(); }, frame));
+  EXPECT_TRUE(until([&] { return link.status().clock.has_value(); }, frame));
   link.stop();
   EXPECT_TRUE(autopilot.ends_at_zero());
   const long setpoints = autopilot.setpoints();
