@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "kestrel/geometry/pixel.hpp"
+#include "kestrel/link/autopilot_profile.hpp"
+#include "kestrel/link/axis_response.hpp"
 #include "kestrel/vision/track_options.hpp"
 
 #include "compare.hpp"
@@ -69,6 +71,22 @@ struct ReceiveArguments {
   std::optional<double> duration_s;
   std::optional<long> count;
   bool quiet = false;
+  std::optional<Autopilot> autopilot;  // the one to stand in for; empty: none
+  bool starts_in_air = true;           // and armed; else on the ground and not
+};
+
+/// Moves a real vehicle, one axis after the other, and says what it did.
+struct JogArguments {
+  std::string to;
+  std::vector<Axis> axes = {Axis::Forward, Axis::Right, Axis::Down, Axis::Yaw};
+  double speed_m_s = 0.3;
+  double yaw_rate_deg_s = 10;
+  double seconds = 2;
+  double wait_s = 20;  // for the autopilot, and then for control
+  double takeoff_m = 0;
+  bool allow_arming = false;
+  bool yes = false;
+  bool json = false;
 };
 
 struct CheckArguments {
@@ -83,7 +101,7 @@ struct DemoArguments {
 using Arguments =
     std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
                  CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
-                 LawsArguments, ExplainArguments, SwitchArguments, KeyArguments>;
+                 LawsArguments, ExplainArguments, SwitchArguments, KeyArguments, JogArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

@@ -58,6 +58,7 @@ class Fold {
   bool frame() {
     pacer_.wait_for(frame_.stamp_s);
     const double start_s = monotonic_s();
+    if (!frame_.attitude && chain_.attitude) frame_.attitude = chain_.attitude(frame_.stamp_s);
     Step now = step(chain_.tracker, frame_, state_, chain_.task);
     chain_.sink.send(now.decision.command, frame_.stamp_s);
     const double chain_ms = (monotonic_s() - start_s) * 1e3;

@@ -23,6 +23,8 @@ struct Chain {
   Pace pace = Pace::AsFastAsPossible;
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside = nullptr;
+  /// The helicopter's attitude at a stamp, for frames that come without; null: nobody knows.
+  std::function<std::optional<Attitude>(double stamp_s)> attitude{};
 };
 
 /// How a run ended.

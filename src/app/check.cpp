@@ -12,6 +12,7 @@
 #include "kestrel/lab/planned_runs.hpp"
 #include "kestrel/servo/interaction.hpp"
 
+#include "autopilot_file.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
 #include "verbs.hpp"
@@ -125,8 +126,9 @@ void check_task(const Section& root) {
                     -p.x(), p.y(), p.z(), s.world.start.yaw / kDegree, s.goal.position_m,
                     s.goal.heading_rad / kDegree, s.goal.hold_s));
   }
+  read_autopilot(root);
   root.done();
-  open_sink(e.sink);
+  check_sink(e.sink);
 }
 
 void check_sequence(const std::filesystem::path& file) {

@@ -75,7 +75,8 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
                    "Frames, instead of the task's: sequence:FILE, images:PATTERN, video:FILE, "
                    "camera:N, dc1394:");
   verb->add_option("--sink", a->sink,
-                   "Where commands go, instead of the task's: udp://HOST:PORT or none");
+                   "Where commands go, instead of the task's: autopilot:udp://HOST:PORT, "
+                   "udp://HOST:PORT or none");
   verb->add_flag_callback(
       "--real-time", [a] { a->pace = Pace::RealTime; },
       "Play a recording at its own rate (default: as fast as possible)");
@@ -105,7 +106,8 @@ void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
           "--seeds", [a](const std::string& text) { a->seeds = seed_range(text); },
           "Fly once for each seed, FIRST-LAST, and make a table")
       ->excludes(seed);
-  verb->add_option("--sink", a->sink, "Send the commands there too: udp://HOST:PORT");
+  verb->add_option("--sink", a->sink,
+                   "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
   add_run_options(*verb, a->run);
 }
 
@@ -117,6 +119,40 @@ void add_receive(CLI::App& app, const std::shared_ptr<ReceiveArguments>& a) {
   verb->add_option("--duration", a->duration_s, "Stop after this long, s (default: on Ctrl-C)");
   verb->add_option("--count", a->count, "Stop after this many commands (default: on Ctrl-C)");
   verb->add_flag("--quiet", a->quiet, "Print the counts at the end only");
+  const std::map<std::string, std::optional<Autopilot>> known{
+      {"none", std::nullopt}, {"ardupilot", Autopilot::ArduPilot}, {"px4", Autopilot::Px4}};
+  verb->add_option_function<std::string>(
+          "--autopilot", [a, known](const std::string& word) { a->autopilot = known.at(word); },
+          "Stand in for an autopilot and fly by its rules: ardupilot, px4 or none (default none)")
+      ->check(CLI::IsMember(known));
+  verb->add_flag_callback(
+      "--on-ground", [a] { a->starts_in_air = false; },
+      "Start disarmed on the ground (default: armed, 10 m up); with --autopilot");
+}
+
+void add_jog(CLI::App& app, const std::shared_ptr<JogArguments>& a) {
+  auto* verb = app.add_subcommand(
+      "jog", "Move a vehicle along one axis at a time, slowly and briefly, and say what it did");
+  verb->add_option("--to", a->to, "The autopilot: udp://HOST:PORT")->required();
+  const std::map<std::string, Axis> known{
+      {"forward", Axis::Forward}, {"right", Axis::Right}, {"down", Axis::Down}, {"yaw", Axis::Yaw}};
+  verb->add_option("--axes", a->axes, "Which, in this order (default forward right down yaw)")
+      ->transform(CLI::CheckedTransformer(known, CLI::ignore_case));
+  verb->add_option("--speed", a->speed_m_s, "m/s, -1 to 1; negative: the other way (default 0.3)")
+      ->check(CLI::Range(-1.0, 1.0));
+  verb->add_option("--yaw-rate", a->yaw_rate_deg_s, "deg/s, -30 to 30 (default 10)")
+      ->check(CLI::Range(-30.0, 30.0));
+  verb->add_option("--seconds", a->seconds, "How long each move lasts, s, 0.5 to 5 (default 2)")
+      ->check(CLI::Range(0.5, 5.0));
+  verb->add_option("--wait", a->wait_s, "How long to wait for control, s (default 20)")
+      ->check(CLI::Range(0.0, 600.0));
+  verb->add_flag("--allow-arming", a->allow_arming,
+                 "The vehicle may be armed, with --takeoff (default: it never is)");
+  verb->add_option("--takeoff", a->takeoff_m,
+                   "Take off to this height first when it stands, m (default: it must fly)")
+      ->check(CLI::Range(0.0, 20.0));
+  verb->add_flag("--yes", a->yes, "Do not ask before each move");
+  verb->add_flag("--json", a->json, "Print JSON");
 }
 
 void add_check(CLI::App& app, const std::shared_ptr<CheckArguments>& a) {
@@ -169,6 +205,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_explain(app, explain);
   add_switch(app, switching);
   add_key(app, key);
+  const auto jog = std::make_shared<JogArguments>();
+  add_jog(app, jog);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -189,6 +227,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("explain")) return Arguments(*explain);
   if (app.got_subcommand("switch")) return Arguments(*switching);
   if (app.got_subcommand("key")) return Arguments(*key);
+  if (app.got_subcommand("jog")) return Arguments(*jog);
   return Arguments(*demo);
 }
 

@@ -10,6 +10,7 @@
 
 #include "command_csv.hpp"
 #include "interrupt.hpp"
+#include "stand_in.hpp"
 #include "verbs.hpp"
 
 namespace kestrel::app {
@@ -29,10 +30,9 @@ bool enough(const ReceiveArguments& a, double elapsed_s, const ReceiverCounts& c
          (a.count && counts.commands >= *a.count);
 }
 
-}  // namespace
-
-int run(const ReceiveArguments& a) {
-  CommandReceiver receiver(parse_address(a.address));
+/// Polls until it is enough; the receiver is a CommandReceiver or a StandIn.
+template <class Receiver, class Tell>
+void listen(const ReceiveArguments& a, Receiver& receiver, const Tell& tell) {
   std::unique_ptr<LineFile> log;
   if (!a.log.empty()) {
     log = std::make_unique<LineFile>(a.log);
@@ -47,8 +47,31 @@ int run(const ReceiveArguments& a) {
       if (log) log->write(command_line(command));
       if (!a.quiet) fmt::print("{}\n", text_line(command));
     }
+    tell();
     std::fflush(stdout);
   }
+}
+
+int receive_as_autopilot(const ReceiveArguments& a) {
+  AutopilotModelOptions rules;
+  rules.autopilot = *a.autopilot;
+  rules.starts_armed = a.starts_in_air;
+  StandIn autopilot(parse_address(a.address), rules);
+  listen(a, autopilot, [&] {
+    for (const std::string& line : autopilot.take_events()) fmt::print("{}\n", line);
+  });
+  Summary summary = receiver_summary(autopilot.counts());
+  autopilot.report(summary);
+  fmt::print("{}", text_table(summary));
+  return interrupted() ? kInterrupted : 0;
+}
+
+}  // namespace
+
+int run(const ReceiveArguments& a) {
+  if (a.autopilot) return receive_as_autopilot(a);
+  CommandReceiver receiver(parse_address(a.address));
+  listen(a, receiver, [] {});
   fmt::print("{}", text_table(receiver_summary(receiver.counts())));
   return interrupted() ? kInterrupted : 0;
 }

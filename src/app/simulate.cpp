@@ -8,6 +8,7 @@
 #include "kestrel/sim/outside_view.hpp"
 #include "kestrel/sim/reference.hpp"
 
+#include "autopilot_file.hpp"
 #include "chain.hpp"
 #include "interrupt.hpp"
 #include "simulation_file.hpp"
@@ -99,6 +100,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   Section file = Section::load(a.task);
   Experiment experiment = read_experiment(file);
   Simulation simulation = read_simulation(file.child("simulation"));
+  const AutopilotOptions autopilot = read_autopilot(file);
   file.done();
   simulation.world.camera = experiment.task.camera;
   simulation.world.body_from_camera = experiment.task.body_from_camera;
@@ -113,8 +115,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
   World world(scene, simulation.world);
   const Task task = experiment.task;  // its goal is that of the target, not of the template
   Prepared prepared = prepare(task, scene);
-  const auto outside = open_sink(a.sink);
-  TeeSink sink(world, *outside);
+  const Sink outside = open_sink(a.sink, autopilot, std::nullopt);
+  TeeSink sink(world, *outside.commands);
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
@@ -146,6 +148,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   const ChainEnd end = run_chain(chain, *world.next(), watch);
   const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
   RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
+  if (outside.report) outside.report(result.summary);
   recorder.add_times(result.summary);
   finish_run(recorder, prepared.tracker.model(), prepared.task, end, result.summary,
              "Simulated flight: " + a.task.stem().string(), simulate_sections);

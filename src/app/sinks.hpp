@@ -1,15 +1,35 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "kestrel/geometry/attitude.hpp"
+#include "kestrel/io/summary.hpp"
+#include "kestrel/link/autopilot_adapter.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"
 
 namespace kestrel::app {
 
-/// The sink of a task: "udp://HOST:PORT" (MAVLink), or "none" and "" for one that sends nothing.
-/// Throws std::invalid_argument for anything else.
-std::unique_ptr<CommandSink> open_sink(const std::string& text);
+/// Where commands go, and what comes back from there.
+struct Sink {
+  std::unique_ptr<CommandSink> commands;
+  /// The vehicle's attitude when the frame with a stamp was captured; null for a sink that does not
+  /// know.
+  std::function<std::optional<Attitude>(double stamp_s)> attitude;
+  /// Adds what became of the commands to a summary; null when there is nothing to say.
+  std::function<void(Summary&)> report;
+};
+
+/// The sink of a task: "udp://HOST:PORT" (setpoints and nothing else), "autopilot:udp://HOST:PORT"
+/// (AutopilotLink), or "none" and "" for one that sends nothing. stamp_origin_s: of the frames, see
+/// AutopilotLink. Throws std::invalid_argument for anything else.
+Sink open_sink(const std::string& text, const AutopilotOptions& options,
+               std::optional<double> stamp_origin_s);
+
+/// Throws as open_sink for a text that is none of these; opens nothing.
+void check_sink(const std::string& text);
 
 /// Sends each command to two sinks.
 class TeeSink final : public CommandSink {

@@ -22,5 +22,6 @@ int run(const LawsArguments& arguments);
 int run(const ExplainArguments& arguments);
 int run(const SwitchArguments& arguments);
 int run(const KeyArguments& arguments);
+int run(const JogArguments& arguments);
 
 }  // namespace kestrel::app

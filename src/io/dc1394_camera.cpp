@@ -8,6 +8,8 @@
 #include <dc1394/dc1394.h>
 #include <fmt/format.h>
 
+#include "kestrel/io/live_camera.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -53,7 +55,7 @@ std::uint64_t guid_of(const dc1394camera_list_t& list, const std::string& wanted
   fail(fmt::format("no camera {:016x} on the bus; there is{}", guid, others));
 }
 
-class Dc1394Camera : public FrameSource {
+class Dc1394Camera : public FrameSource, public LiveClock {
  public:
   Dc1394Camera(const std::string& guid, double timeout_s)
       : timeout_(
@@ -104,6 +106,9 @@ class Dc1394Camera : public FrameSource {
 
   const std::vector<std::string>& skipped() const override { return skipped_; }
   std::optional<std::int64_t> frame_count() const override { return std::nullopt; }
+  double stamp_origin_s() const override {
+    return std::chrono::duration<double>(start_.time_since_epoch()).count();
+  }
 
  private:
   void choose_mode() {

@@ -62,7 +62,7 @@ CaptureModule::Images open_stream(const std::string& address, const LiveOptions&
 }
 
 /// The newest frame of a capture that a thread of its own reads.
-class LiveCamera : public FrameSource {
+class LiveCamera : public FrameSource, public LiveClock {
  public:
   LiveCamera(std::string address, CaptureModule::Images images, double stall_timeout_s)
       : address_(std::move(address)),
@@ -97,6 +97,9 @@ class LiveCamera : public FrameSource {
 
   const std::vector<std::string>& skipped() const override { return skipped_; }
   std::optional<std::int64_t> frame_count() const override { return std::nullopt; }
+  double stamp_origin_s() const override {
+    return std::chrono::duration<double>(start_.time_since_epoch()).count();
+  }
 
  private:
   void read_all() {
@@ -158,6 +161,11 @@ std::unique_ptr<FrameSource> open_live(const std::string& address, const LiveOpt
   throw std::runtime_error("'" + address +
                            "' is no live camera; give camera:N, dc1394:GUID, or an address that "
                            "begins with http://, rtsp:// or udp://");
+}
+
+std::optional<double> stamp_origin_s(const FrameSource& source) {
+  const auto* live = dynamic_cast<const LiveClock*>(&source);
+  return live != nullptr ? std::optional(live->stamp_origin_s()) : std::nullopt;
 }
 
 }  // namespace kestrel

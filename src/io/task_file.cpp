@@ -37,8 +37,8 @@ std::string read_source(const Section& root) {
 
 std::string read_sink(const Section& root) {
   std::string sink = root.text("sink", std::string("none"));
-  if (sink != "none" && !begins_with(sink, "udp://")) {
-    root.fail("sink", "is '" + sink + "'; give udp://HOST:PORT or none");
+  if (sink != "none" && !begins_with(sink, "udp://") && !begins_with(sink, "autopilot:udp://")) {
+    root.fail("sink", "is '" + sink + "'; give autopilot:udp://HOST:PORT, udp://HOST:PORT or none");
   }
   return sink;
 }

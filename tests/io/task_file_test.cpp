@@ -141,7 +141,8 @@ TEST_F(TaskFile, NamesTheLineOfAMistake) {
   EXPECT_THAT(error_of("source: 'video:'\n" + kOwn), HasSubstr("t.yaml:1: source: names no file"));
   EXPECT_THAT(error_of("source: sequence:none.yaml\n" + kOwn), HasSubstr("there is no such file"));
   EXPECT_THAT(error_of("source: simulation\nsink: tcp://x\n" + kOwn),
-              HasSubstr("t.yaml:2: sink: is 'tcp://x'; give udp://HOST:PORT or none"));
+              HasSubstr("t.yaml:2: sink: is 'tcp://x'; give autopilot:udp://HOST:PORT, "
+                        "udp://HOST:PORT or none"));
   EXPECT_THAT(error_of(kDescribed + "rate_hz: 0\n"), HasSubstr("rate_hz: must be positive"));
   EXPECT_THAT(error_of(kDescribed + "last_frame: 1\n"), HasSubstr("t.yaml:5: last_frame: "));
   EXPECT_THAT(error_of(kDescribed + "servos: {}\n"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "kestrel/vision/frame.hpp"
@@ -24,5 +25,17 @@ struct LiveOptions {
 /// with a remedy: an address of another kind, no such camera, and in next() a stream that ended or
 /// gave no frame for stall_timeout_s.
 std::unique_ptr<FrameSource> open_live(const std::string& address, const LiveOptions& options = {});
+
+/// A source whose stamps count from an instant of the machine's monotonic clock.
+class LiveClock {
+ public:
+  virtual ~LiveClock() = default;
+
+  /// What the monotonic clock (std::chrono::steady_clock, s) was when the stamps were zero.
+  virtual double stamp_origin_s() const = 0;
+};
+
+/// The same of any source; empty for one that does not say, a recording for instance.
+std::optional<double> stamp_origin_s(const FrameSource& source);
 
 }  // namespace kestrel

@@ -17,7 +17,8 @@ struct Experiment {
   /// Where the frames come from, as written: "sequence:…", "images:…", "video:…", "camera:0",
   /// "dc1394", "dc1394:…", "http://…", "rtsp://…", "udp://…" or "simulation".
   std::string source;
-  std::string sink;  // where the commands go, as written: "udp://host:port" or "none"
+  std::string sink;  // where the commands go, as written: "autopilot:udp://host:port",
+                     // "udp://host:port" or "none"
   Task task;
   /// What to open for a source sequence:, images: or video:.
   std::optional<SequenceOptions> sequence;
