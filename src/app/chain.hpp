@@ -21,10 +21,10 @@ struct Chain {
   const Task& task;
   RunRecorder& recorder;
   Pace pace = Pace::AsFastAsPossible;
-  /// What is put beside the overlay in video and window, if anything; as high as the overlay.
-  std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside = nullptr;
   /// The helicopter's attitude at a stamp, for frames that come without; null: nobody knows.
   std::function<std::optional<Attitude>(double stamp_s)> attitude{};
+  /// What is put beside the overlay in video and window, if anything; as high as the overlay.
+  std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
 };
 
 /// How a run ended.

@@ -61,7 +61,7 @@ TEST(Vehicle, KnowsItsRatesAndVelocity) {
       for (int k = 0; k < 100; ++k) vehicle.advance(command, h);
       const auto before = vehicle.motion().world_from_body;
       vehicle.advance(command, h);
-      const VehicleMotion& now = vehicle.motion();
+      const TrueMotion& now = vehicle.motion();
       const Eigen::Matrix3d turn = before.rotation.transpose() * now.world_from_body.rotation;
       EXPECT_LT((rotation_vector(turn) / h - now.rate_rad_s).norm(), 0.02);
       EXPECT_LT(

@@ -20,7 +20,7 @@ struct ShutterOptions {
 
 /// A vehicle and its camera around the stamp of a frame.
 struct CameraInFlight {
-  VehicleMotion vehicle;  // at the stamp; carried on with its velocity and rates
+  TrueMotion vehicle;  // at the stamp; carried on with its velocity and rates
   Mount body_from_camera;
   VibrationOptions vibration;
 };

@@ -36,7 +36,7 @@ using VehicleOptions = std::variant<HelicopterOptions, RotorcraftSystem>;
 void check(const VehicleOptions& options);
 
 /// True motion at an instant.
-struct VehicleMotion {
+struct TrueMotion {
   Transform<frame::World, frame::Body> world_from_body;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // NED
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();    // in Body
@@ -57,7 +57,7 @@ class Vehicle {
   /// nearest to the time flown in all. A command that is not finite counts as hover.
   void advance(const VelocityCommand& command, double duration_s);
 
-  const VehicleMotion& motion() const { return motion_; }
+  const TrueMotion& motion() const { return motion_; }
 
   /// The attitude that the flight computer reports: with its errors, if it has any.
   Attitude measured_attitude() const { return measured_; }
@@ -75,7 +75,7 @@ class Vehicle {
   std::optional<Wind> wind_;
   double flown_s_ = 0;
   std::int64_t periods_ = 0;
-  VehicleMotion motion_;
+  TrueMotion motion_;
   MeasuredMotion seen_;
   Attitude measured_;
 };

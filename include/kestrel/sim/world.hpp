@@ -83,7 +83,7 @@ class World final : public FrameSource, public CommandSink {
   long failures() const override { return failures_; }
 
   /// The truth at the instant of the last frame (before the first: the start).
-  const VehicleMotion& motion() const { return vehicle_.motion(); }
+  const TrueMotion& motion() const { return vehicle_.motion(); }
   Transform<frame::World, frame::Camera> world_from_camera() const;
   TargetPose camera_from_target() const;
   /// The target's place at that instant.
