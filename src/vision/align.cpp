@@ -137,10 +137,10 @@ struct Aligner::Scratch {
   /// one level is noise to the next.
   Look begun(const TemplateBlocks& all, const AlignOptions& options, const ImagePyramid& image,
              const LevelPair& at, const Homography& start, const Homography& led, int& taken) {
-    const Look there{led, measured(all, options, image, at, led)};
+    Look there{led, measured(all, options, image, at, led)};
     ++taken;
     if (led.H == start.H) return there;
-    const Look before{start, measured(all, options, image, at, start)};
+    Look before{start, measured(all, options, image, at, start)};
     return before.seen.shown > there.seen.shown ? before : there;
   }
 
