@@ -146,11 +146,15 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last,
     result.window = {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
     look(frame, result.window);
     const Homography around = aligner_.search(pyramid_, start);
-    const auto searched = aligner_.align(pyramid_, around);
-    if (searched && (!result.at || is_better(*searched, *result.at))) {
-      result.at = searched;
-      result.stage = TrackStage::Searched;
-    }
+    const auto improve_from = [&](const Homography& from, TrackStage stage) {
+      const auto at = aligner_.align(pyramid_, from);
+      if (!at || (result.at && !is_better(*at, *result.at))) return;
+      result.at = at;
+      result.stage = stage;
+    };
+    // The steps may have run out: they go on.
+    if (result.at) improve_from(Homography(result.at->image_from_template), TrackStage::Aligned);
+    improve_from(around, TrackStage::Searched);
     if (may_be_blurred(result.at, expected)) {
       follow_blurred({around, result.at ? result.at->image_from_template : start}, expected,
                      result);
