@@ -25,6 +25,11 @@ constexpr double kLeastDeviationPx = 0.01;
 /// A step larger than this, in coordinates of warp(), leaves the range of its linearisation.
 constexpr double kLargestStep = 0.3;
 
+/// Damping after the first step that fails, which halves a step, and its factor after the next
+/// ones.
+constexpr double kDamped = 1;
+constexpr double kMoreDamping = 3;
+
 /// Fewer blocks than this cannot hold all eight parameters.
 constexpr int kBlocksForHomography = 6;
 
@@ -104,45 +109,78 @@ struct Aligner::Scratch {
     return normal_equations(level, sums, options, all.options);
   }
 
-  /// The motion of the template that would explain what the image shows; empty when that does not
-  /// determine one.
-  std::optional<Eigen::Matrix3d> step(const Normal& n, const TemplateBlocks& all) const {
+  /// The motion of the template that would explain what the image shows, shortened by the damping;
+  /// empty when that does not determine one.
+  std::optional<Vector8d> step(Normal n, double damping, const TemplateBlocks& all) const {
+    n.information.diagonal() *= 1 + damping;
     auto parameters = solved(n, n.blocks >= kBlocksForHomography ? 8 : n.blocks >= 2 ? 4 : 2);
     if (!parameters) return std::nullopt;
     const double far = std::max(reach(warp(*parameters), scaled, all), parameters->norm());
     if (far > kLargestStep) *parameters *= kLargestStep / far;
-    return warp(*parameters);
+    return parameters;
   }
 
-  /// Gauss-Newton steps at one level, at most so many or until one moves no corner by more than the
-  /// tolerance (coordinates of warp()): of the places passed the one that shows most of the
-  /// template. Begins at the start where that shows more than the place a coarser level led to:
-  /// what is fine texture to one level is noise to the next.
-  Homography descended(const TemplateBlocks& all, const AlignOptions& options,
-                       const ImagePyramid& image, const LevelPair& at, const Homography& start,
-                       Homography H, int steps, double tolerance, int& taken) {
-    Normal n = measured(all, options, image, at, H);
+  /// How far a step moves the texture that takes part, root mean square, in coordinates of warp():
+  /// corners that nothing is seen of do not count.
+  static double moved(const Vector8d& parameters, const Normal& n) {
+    const double of_a_shift = (n.information(0, 0) + n.information(1, 1)) / 2;
+    return std::sqrt(parameters.dot(n.information * parameters) / of_a_shift);
+  }
+
+  /// A place, and what the image shows there.
+  struct Look {
+    Homography at;
+    Normal seen;
+  };
+
+  /// The start where it shows more than the place a coarser level led to: what is fine texture to
+  /// one level is noise to the next.
+  Look begun(const TemplateBlocks& all, const AlignOptions& options, const ImagePyramid& image,
+             const LevelPair& at, const Homography& start, const Homography& led, int& taken) {
+    Look there{led, measured(all, options, image, at, led)};
     ++taken;
-    if (H.H != start.H) {
-      const Normal before = measured(all, options, image, at, start);
-      if (before.shown > n.shown) {
-        n = before;
-        H = start;
-      }
-    }
-    Homography best = H;
-    double most = n.shown;
-    for (int i = 0; i < steps; ++i) {
-      const auto W = step(n, all);
-      if (!W) break;
-      H.H = H.H * (from_scaled * W->inverse() * scaled);
-      H.H /= H.H(2, 2);
-      if (reach(*W, scaled, all) < tolerance) return H;
-      n = measured(all, options, image, at, H);
+    if (led.H == start.H) return there;
+    Look before{start, measured(all, options, image, at, start)};
+    return before.seen.shown > there.seen.shown ? before : there;
+  }
+
+  /// When a descent ends and which steps are believed; lengths in coordinates of warp().
+  struct Bounds {
+    int steps = 0;
+    double tolerance = 0;  // a step that moves no corner by more is the last
+    double range = 0;      // of the linearisation: an eighth of the finest texture's period, 2 px
+  };
+
+  /// Gauss-Newton steps at one level, damped as Levenberg and Marquardt do: a step beyond the range
+  /// of its linearisation to where the image shows less of the template is taken back and tried
+  /// shorter. Where they do not
+  /// settle, of the places passed the one that shows most.
+  Homography descended(const TemplateBlocks& all, const AlignOptions& options,
+                       const ImagePyramid& image, const LevelPair& at, Look now,
+                       const Bounds& bounds, int& taken) {
+    double damping = 0;
+    Homography best = now.at;
+    double most = now.seen.shown;
+    for (int i = 0; i < bounds.steps; ++i) {
+      const auto parameters = step(now.seen, damping, all);
+      if (!parameters) break;
+      const Eigen::Matrix3d W = warp(*parameters);
+      Look next;
+      next.at.H = now.at.H * (from_scaled * W.inverse() * scaled);
+      next.at.H /= next.at.H(2, 2);
+      if (reach(W, scaled, all) < bounds.tolerance) return next.at;
+      next.seen = measured(all, options, image, at, next.at);
       ++taken;
-      if (n.shown < most) continue;
-      most = n.shown;
-      best = H;
+      const bool is_less = next.seen.shown < now.seen.shown;
+      if (is_less && moved(*parameters, now.seen) > bounds.range) {
+        damping = std::max(kDamped, damping * kMoreDamping);
+        continue;
+      }
+      damping = damping > kDamped ? damping / kMoreDamping : 0;
+      now = next;
+      if (now.seen.shown < most) continue;
+      most = now.seen.shown;
+      best = now.at;
     }
     return best;
   }
@@ -272,11 +310,13 @@ std::optional<Alignment> Aligner::align(const ImagePyramid& image, const Homogra
   const double px = scale(start, blocks_) * std::max(blocks_.width, blocks_.height) / 2;
   for (int k = pair_count(finest, blocks_, image) - 1; k >= 0; --k) {
     const LevelPair at{finest.in_template + k, finest.in_image + k};
-    const int iterations = k == 0 ? options_.max_iterations : (options_.max_iterations + 1) / 2;
+    const double half_pixel = 0.5 * double(1 << k) / px;
     // A coarse level need only lead into the range of the next: half a pixel of its own.
-    const double tolerance = (k == 0 ? options_.tolerance_px : 0.5 * double(1 << k)) / px;
-    H = scratch_->descended(blocks_, options_, image, at, start, H, iterations, tolerance,
-                            result.iterations);
+    const Scratch::Bounds bounds{
+        k == 0 ? options_.max_iterations : (options_.max_iterations + 1) / 2,
+        k == 0 ? options_.tolerance_px / px : half_pixel, half_pixel / 2};
+    const auto begun = scratch_->begun(blocks_, options_, image, at, start, H, result.iterations);
+    H = scratch_->descended(blocks_, options_, image, at, begun, bounds, result.iterations);
   }
   if (!is_plausible(H, blocks_.width, blocks_.height)) return std::nullopt;
   scratch_->finish(blocks_, options_, image, finest, result);

@@ -35,13 +35,6 @@ AlignOptions align_options(const TrackOptions& options) {
   return align;
 }
 
-/// The same for a template that is like itself.
-AlignOptions align_options(const TrackOptions& options, double self_likeness_share) {
-  AlignOptions align = align_options(options);
-  align.agreement = beyond_self_likeness(align.agreement, self_likeness_share);
-  return align;
-}
-
 PixelBox box_of(const Homography& H, const Template& model) {
   const auto c = outline(H, model.width(), model.height());
   const auto [left, right] = std::minmax({c[0].u, c[1].u, c[2].u, c[3].u});
@@ -95,7 +88,8 @@ TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
     : model_(model),
       options_(options),
       self_(self_likeness(model.picture(), model.blocks(), align_options(options))),
-      aligner_(model.blocks(), align_options(options, self_.share)),
+      beyond_(beyond_self_likeness(options.align.agreement, self_.share)),
+      aligner_(model.blocks(), align_options(options)),
       detector_(model, options) {
   // Blurred, a picture that is like itself is so even more: any of those places would do.
   if (!self_.places.empty()) return;
@@ -109,8 +103,27 @@ void TargetSearch::look(const Frame& frame, const PixelBox& window) {
   pyramid_.look(frame.gray, window, aligner_.levels(), options_.simd);
 }
 
-bool TargetSearch::is_possible(const Alignment& place) const {
+/// True where the motion leads to the place and to none at which the template is like this one.
+bool TargetSearch::is_told(const Homography& place,
+                           const std::optional<Expectation>& expected) const {
+  if (!expected) return false;
+  const double gate_px = kGate * expected->deviation_px;
+  const auto is_expected = [&](const Eigen::Matrix3d& H) {
+    return apart(Homography{H}, expected->image_from_template, model_) <= gate_px;
+  };
+  return is_expected(place.H) &&
+         std::none_of(self_.places.begin(), self_.places.end(), [&](const Homography& like) {
+           return is_expected(place.H * like.H) || is_expected(place.H * like.H.inverse());
+         });
+}
+
+/// Of a template that is like itself more is asked, lest another part of it is taken for it, unless
+/// the motion rules those places out.
+bool TargetSearch::is_possible(const Alignment& place,
+                               const std::optional<Expectation>& expected) const {
   return place.is_accepted &&
+         (kestrel::is_accepted(place.agreement, beyond_) ||
+          is_told(place.image_from_template, expected)) &&
          is_plausible(place.image_from_template, model_.width(), model_.height(), options_.outline);
 }
 
@@ -118,7 +131,9 @@ bool TargetSearch::is_weak(const Alignment& place) const {
   return place.agreement.alike_share() < options_.weak_share;
 }
 
-Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const Homography& ahead) {
+Sighting TargetSearch::follow(const Frame& frame, const Homography& last,
+                              const std::optional<Expectation>& expected) {
+  const Homography& ahead = expected ? expected->image_from_template : last;
   Sighting result;
   result.stage = TrackStage::Aligned;
   result.window = clipped(with_margin(united(box_of(last, model_), box_of(ahead, model_))),
@@ -127,39 +142,47 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last, const 
   const bool moves = aligner_.likeness(pyramid_, ahead) >= aligner_.likeness(pyramid_, last);
   const Homography& start = moves ? ahead : last;
   result.at = aligner_.align(pyramid_, start);
-  if (is_doubtful(result.at)) {
+  if (is_doubtful(result.at, expected)) {
     result.window = {0, 0, double(frame.gray.cols), double(frame.gray.rows)};
     look(frame, result.window);
     const Homography around = aligner_.search(pyramid_, start);
-    const auto searched = aligner_.align(pyramid_, around);
-    if (searched && (!result.at || is_better(*searched, *result.at))) {
-      result.at = searched;
-      result.stage = TrackStage::Searched;
-    }
-    if (may_be_blurred(result.at)) {
-      follow_blurred({around, result.at ? result.at->image_from_template : start}, result);
+    const auto improve_from = [&](const Homography& from, TrackStage stage) {
+      const auto at = aligner_.align(pyramid_, from);
+      if (!at || (result.at && !is_better(*at, *result.at))) return;
+      result.at = at;
+      result.stage = stage;
+    };
+    // The steps may have run out: they go on.
+    if (result.at) improve_from(Homography(result.at->image_from_template), TrackStage::Aligned);
+    improve_from(around, TrackStage::Searched);
+    if (may_be_blurred(result.at, expected)) {
+      follow_blurred({around, result.at ? result.at->image_from_template : start}, expected,
+                     result);
     }
   }
-  if (result.at && is_possible(*result.at)) result.miss = Miss::None;
-  settle(frame, result);
+  if (result.at && is_possible(*result.at, expected)) result.miss = Miss::None;
+  settle(frame, expected, result);
   return result;
 }
 
-bool TargetSearch::is_doubtful(const std::optional<Alignment>& place) const {
-  if (!place || !is_possible(*place) || is_weak(*place)) return true;
+bool TargetSearch::is_doubtful(const std::optional<Alignment>& place,
+                               const std::optional<Expectation>& expected) const {
+  if (!place || !is_possible(*place, expected) || is_weak(*place)) return true;
   // So much of it may show a line of print, or a window, beside the place.
   return !self_.places.empty() && place->agreement.alike_share() < sure_share(self_.share);
 }
 
 /// What is covered leaves the better half of the blocks as it is, what is blurred spoils all.
-bool TargetSearch::may_be_blurred(const std::optional<Alignment>& place) const {
-  return is_doubtful(place) &&
-         !(place && is_possible(*place) && place->agreement.better_half() > kSharpHalf);
+bool TargetSearch::may_be_blurred(const std::optional<Alignment>& place,
+                                  const std::optional<Expectation>& expected) const {
+  return is_doubtful(place, expected) &&
+         !(place && is_possible(*place, expected) && place->agreement.better_half() > kSharpHalf);
 }
 
 /// Of all motion blurs those that are likeliest at the places are aligned; the best view that is
 /// not weak itself is taken.
-void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting) {
+void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts,
+                                  const std::optional<Expectation>& expected, Sighting& sighting) {
   guesses_.clear();
   for (std::size_t i = 0; i < blurred_.size(); ++i) {
     for (const Homography& start : starts) {
@@ -172,7 +195,7 @@ void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts, Sight
   });
   for (auto guess = guesses_.begin(); guess != end; ++guess) {
     const auto at = blurred_[guess->blur].align(pyramid_, guess->start);
-    if (is_doubtful(at) || (sighting.at && !is_better(*at, *sighting.at))) continue;
+    if (is_doubtful(at, expected) || (sighting.at && !is_better(*at, *sighting.at))) continue;
     sighting.at = at;
     sighting.stage = TrackStage::Searched;
   }
@@ -181,7 +204,8 @@ void TargetSearch::follow_blurred(const std::array<Homography, 2>& starts, Sight
 /// A place that shows so little of the template that it may be one where the template is like
 /// itself is held against those places: the best of them all is taken, and none when two are as
 /// good.
-void TargetSearch::settle(const Frame& frame, Sighting& sighting) {
+void TargetSearch::settle(const Frame& frame, const std::optional<Expectation>& expected,
+                          Sighting& sighting) {
   if (!sighting.is_accepted() || self_.places.empty()) return;
   if (sighting.at->agreement.alike_share() >= sure_share(self_.share)) return;
   look(frame, {0, 0, double(frame.gray.cols), double(frame.gray.rows)});
@@ -191,7 +215,7 @@ void TargetSearch::settle(const Frame& frame, Sighting& sighting) {
     for (const Eigen::Matrix3d& way :
          {Eigen::Matrix3d(place.H), Eigen::Matrix3d(place.H.inverse())}) {
       const auto rival = aligner_.align(pyramid_, Homography{found.H * way});
-      if (!rival || !is_possible(*rival)) continue;
+      if (!rival || !rival->is_accepted) continue;
       if (is_same(rival->image_from_template, sighting.at->image_from_template, model_)) continue;
       const bool better = is_better(*rival, *sighting.at);
       const Alignment& worse = better ? *sighting.at : *rival;
@@ -202,7 +226,9 @@ void TargetSearch::settle(const Frame& frame, Sighting& sighting) {
   const bool is_tie =
       second && second->agreement.shown() > kRivalShare * sighting.at->agreement.shown() &&
       !is_same(second->image_from_template, sighting.at->image_from_template, model_);
-  if (is_tie) sighting.miss = Miss::Ambiguous;
+  sighting.miss = is_tie                                ? Miss::Ambiguous
+                  : is_possible(*sighting.at, expected) ? Miss::None
+                                                        : Miss::NotAlike;
 }
 
 Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
@@ -230,7 +256,7 @@ Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
   const Choice choice = choose(places, expected);
   result.miss = choice.miss;
   result.at = places[choice.place].at;
-  settle(frame, result);
+  settle(frame, expected, result);
   if (result.is_accepted()) result.inliers = pairs_of(seen, places[choice.place].hypothesis);
   return result;
 }
@@ -238,7 +264,7 @@ Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
 TargetSearch::Choice TargetSearch::choose(const std::vector<Place>& places,
                                           const std::optional<Expectation>& expected) const {
   const Alignment& best = places.front().at;
-  if (!is_possible(best)) return {0, Miss::NotAlike};
+  if (!is_possible(best, expected)) return {0, Miss::NotAlike};
   const auto off = [&](std::size_t i) {
     return apart(places[i].at.image_from_template, expected->image_from_template, model_);
   };
@@ -246,7 +272,8 @@ TargetSearch::Choice TargetSearch::choose(const std::vector<Place>& places,
   bool has_rival = false;
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Alignment& rival = places[i].at;
-    if (!is_possible(rival) || rival.agreement.shown() <= kRivalShare * best.agreement.shown() ||
+    if (!is_possible(rival, expected) ||
+        rival.agreement.shown() <= kRivalShare * best.agreement.shown() ||
         is_same(rival.image_from_template, best.image_from_template, model_)) {
       continue;
     }

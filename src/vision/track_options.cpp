@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace kestrel {
 namespace {
@@ -10,12 +11,23 @@ void require(bool holds, const char* message) {
   if (!holds) throw std::invalid_argument(message);
 }
 
+/// Checks a part under the name it has here: "part.option: ..." of its own.
+template <typename Options>
+void check_as(const std::string& part, const Options& options) {
+  try {
+    options.check();
+  } catch (const std::invalid_argument& refused) {
+    const std::string words = refused.what();
+    throw std::invalid_argument(part + "." + words.substr(words.find('.') + 1));
+  }
+}
+
 }  // namespace
 
 void DetectOptions::check() const {
-  sift.check();
-  match.check();
-  fit.check();
+  check_as("detect.sift", sift);
+  check_as("detect.match", match);
+  check_as("detect.fit", fit);
   require(max_px_per_frame >= 64 * 64, "detect.max_px_per_frame: must be at least 4096");
 }
 

@@ -140,8 +140,7 @@ struct Tracker::Parts {
     Sighting seen;
     if (options.method == TrackMethod::Hybrid && state.last_seen) {
       const auto expected = expectation(motion_at(frame, state));
-      const Homography& last = *state.last_seen;
-      seen = search->follow(frame, last, expected ? expected->image_from_template : last);
+      seen = search->follow(frame, *state.last_seen, expected);
       const bool weak = seen.is_accepted() && search->is_weak(*seen.at);
       t.next.weak_frames = weak ? state.weak_frames + 1 : 0;
       if (seen.is_accepted() && t.next.weak_frames < options.weak_frames) return seen;

@@ -23,6 +23,7 @@ struct Arguments {
   std::string cls = "nominal";
   std::vector<std::string> textures;
   std::vector<std::string> methods;
+  enum class Before { Nothing, Target } before = Before::Nothing;
 };
 
 Arguments arguments(int argc, char** argv) {
@@ -34,6 +35,9 @@ Arguments arguments(int argc, char** argv) {
                  "whose first frame is learned: it says how large the template is");
   app.add_option("--texture", a.textures, "templates; all of the dev set unless named");
   app.add_option("--method", a.methods, "only these");
+  app.add_flag_callback(
+      "--after-target", [&] { a.before = Arguments::Before::Target; },
+      "each frame comes right after one that shows the template where it was learned");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -57,8 +61,15 @@ void print_accepts(const std::string& texture, const Arguments& a) {
   const auto source = absence_frames({texture, a.frames, a.seed});
   for (const std::string& what : source->skipped()) std::cerr << what << "\n";
   while (const auto frame = source->next()) {
+    Frame absent = *frame;
+    Frame target = first;
+    if (a.before == Arguments::Before::Target) {
+      target.stamp_s = 2 * frame->stamp_s;  // as far before the frame as the frames are apart
+      absent.stamp_s = 2 * frame->stamp_s + 1.0 / 30;
+    }
     for (std::size_t i = 0; i < trackers.size(); ++i) {
-      accepts[i] += trackers[i](*frame).image_from_template ? 1 : 0;
+      if (a.before == Arguments::Before::Target) trackers[i](target);
+      accepts[i] += trackers[i](absent).image_from_template ? 1 : 0;
     }
   }
   for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -52,7 +52,7 @@ TEST(TargetSearch, FollowsFromWhicheverPlaceShowsMore) {
   const Homography off = shifted(truth, 70, 0);
   const Homography near = shifted(truth, 3, -2);
   for (const auto& [last, ahead] : {std::pair(near, off), std::pair(off, near)}) {
-    const Sighting seen = search().follow(frame, last, ahead);
+    const Sighting seen = search().follow(frame, last, Expectation{ahead, 2});
     ASSERT_TRUE(seen.is_accepted());
     EXPECT_EQ(seen.stage, TrackStage::Aligned);
     EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
@@ -67,7 +67,7 @@ TEST(TargetSearch, SearchesTheNeighbourhoodWhenInDoubt) {
   for (int k = 0; k < 8; ++k) {
     const double a = k * M_PI / 4;
     const Homography off = shifted(truth, 38 * std::cos(a), 38 * std::sin(a));
-    const Sighting seen = search().follow(frame, off, off);
+    const Sighting seen = search().follow(frame, off, {});
     ASSERT_TRUE(seen.is_accepted()) << k;
     EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2) << k;
   }
@@ -75,21 +75,21 @@ TEST(TargetSearch, SearchesTheNeighbourhoodWhenInDoubt) {
 
 TEST(TargetSearch, FollowsNothingThatIsNotThere) {
   const Homography H = placed_at({210, 150});
-  const Sighting gone = search().follow(frame_of(test::ground()), H, H);
+  const Sighting gone = search().follow(frame_of(test::ground()), H, {});
   EXPECT_FALSE(gone.is_accepted());
   EXPECT_EQ(gone.miss, Miss::NotAlike);
   const Homography outside = placed_at({2000, -900});
-  EXPECT_FALSE(search().follow(frame_of(planted(H)), outside, outside).is_accepted());
+  EXPECT_FALSE(search().follow(frame_of(planted(H)), outside, {}).is_accepted());
 }
 
 TEST(TargetSearch, ACoveredTargetIsAWeakSight) {
   const Homography truth = placed_at({210, 150});
-  const Sighting whole = search().follow(frame_of(planted(truth)), truth, truth);
+  const Sighting whole = search().follow(frame_of(planted(truth)), truth, {});
   ASSERT_TRUE(whole.is_accepted());
   EXPECT_FALSE(search().is_weak(*whole.at));
   cv::Mat covered = planted(truth);
   covered(cv::Rect(130, 80, 88, 140)).setTo(128);  // 55 % of it
-  const Sighting part = search().follow(frame_of(covered), truth, truth);
+  const Sighting part = search().follow(frame_of(covered), truth, {});
   ASSERT_TRUE(part.is_accepted());
   EXPECT_TRUE(search().is_weak(*part.at));
   EXPECT_LT(error_px(part.at->image_from_template, truth), 0.5);
@@ -102,7 +102,7 @@ TEST(TargetSearch, FollowsWhatMotionBlurs) {
   const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
   const MotionBlur motion{22, 2.6};
   const Homography off = shifted(truth, 4, -3);
-  const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, off);
+  const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, {});
   ASSERT_TRUE(seen.is_accepted());
   EXPECT_FALSE(search().is_weak(*seen.at));
   EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
@@ -134,7 +134,36 @@ TEST_F(RepeatedTarget, IsHeldAgainstThePlacesWhereItIsLikeItself) {
   TargetSearch with(repeated, {});
   const Homography truth = test::learned_place();
   const Homography beside = shifted(truth, kPeriod, 0);
-  const Sighting seen = with.follow(frame_of(scene()), beside, beside);
+  const Sighting seen = with.follow(frame_of(scene()), beside, {});
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
+}
+
+TEST_F(RepeatedTarget, HalfCoveredIsToldByTheMotion) {
+  // As much of it shows as where its one half is taken for the other: nothing but the motion rules
+  // that out, where its uncertainty is far below the period.
+  const Template repeated(scene(), test::kLearnedAt, {});
+  TargetSearch with(repeated, {});
+  const Homography truth = test::learned_place();
+  cv::Mat covered = scene();
+  const PixelBox& at = test::kLearnedAt;
+  covered(cv::Rect(int(at.u), int(at.v), int(at.width), int(at.height) * 58 / 100)).setTo(128);
+  EXPECT_FALSE(with.follow(frame_of(covered), truth, {}).is_accepted());
+  const double vague_px = kPeriod / 3.0;  // three of these reach the period
+  EXPECT_FALSE(
+      with.follow(frame_of(covered), truth, Expectation{truth, 1.1 * vague_px}).is_accepted());
+  const Sighting seen = with.follow(frame_of(covered), truth, Expectation{shifted(truth, 2, 2), 2});
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.5);
+}
+
+TEST_F(RepeatedTarget, IsNotToldByAMotionThatLeadsBeside) {
+  // The place it shows more of is taken, wherever it was expected.
+  const Template repeated(scene(), test::kLearnedAt, {});
+  TargetSearch with(repeated, {});
+  const Homography truth = test::learned_place();
+  const Homography beside = shifted(truth, kPeriod, 0);
+  const Sighting seen = with.follow(frame_of(scene()), beside, Expectation{beside, 2});
   ASSERT_TRUE(seen.is_accepted());
   EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
 }

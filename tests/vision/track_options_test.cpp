@@ -42,6 +42,9 @@ TEST(TrackOptions, NamesTheFirstOptionOutOfRange) {
             "max_outline_deviation_px");
   EXPECT_EQ(refusal([](TrackOptions& o) { o.detect.max_px_per_frame = 100; }),
             "detect.max_px_per_frame");
+  EXPECT_EQ(refusal([](TrackOptions& o) { o.detect.sift.sigma = 0; }), "detect.sift.sigma");
+  EXPECT_EQ(refusal([](TrackOptions& o) { o.detect.match.ratio = 2; }), "detect.match.ratio");
+  EXPECT_EQ(refusal([](TrackOptions& o) { o.detect.fit.max_voters = 0; }), "detect.fit.max_voters");
   EXPECT_EQ(refusal([](TrackOptions& o) { o.blocks.max_blocks = 1; }), "blocks.max_blocks");
   EXPECT_EQ(refusal([](TrackOptions& o) { o.align.max_iterations = 0; }), "align.max_iterations");
   EXPECT_EQ(refusal([](TrackOptions& o) { o.motion.first_speed_px_s = 0; }),

@@ -42,10 +42,11 @@ class TargetSearch {
   /// The model must have been learned with these options and outlive the search.
   TargetSearch(const Template& model, const TrackOptions& options);
 
-  /// The template near where it was: aligned from the last place or from the one ahead, whichever
-  /// shows more of it; when that is in doubt, from the likeliest place around, and with the views
-  /// that motion blurs. Allocates nothing.
-  Sighting follow(const Frame& frame, const Homography& last, const Homography& ahead);
+  /// The template near where it was: aligned from the last place or from the expected one,
+  /// whichever shows more of it; when that is in doubt, from the likeliest place around, and with
+  /// the views that motion blurs. Allocates nothing.
+  Sighting follow(const Frame& frame, const Homography& last,
+                  const std::optional<Expectation>& expected);
 
   /// The template in a window, from its keypoints. Of several places that look like the template
   /// the expected one is taken; none, when nothing was expected.
@@ -66,7 +67,8 @@ class TargetSearch {
     Miss miss = Miss::None;
   };
   void look(const Frame& frame, const PixelBox& window);
-  bool is_possible(const Alignment& place) const;
+  bool is_told(const Homography& place, const std::optional<Expectation>& expected) const;
+  bool is_possible(const Alignment& place, const std::optional<Expectation>& expected) const;
   Choice choose(const std::vector<Place>& places, const std::optional<Expectation>& expected) const;
 
   /// A place to align a blurred view from.
@@ -75,14 +77,18 @@ class TargetSearch {
     Homography start;
     double likeness = 0;
   };
-  void follow_blurred(const std::array<Homography, 2>& starts, Sighting& sighting);
-  bool is_doubtful(const std::optional<Alignment>& place) const;
-  bool may_be_blurred(const std::optional<Alignment>& place) const;
-  void settle(const Frame& frame, Sighting& sighting);
+  void follow_blurred(const std::array<Homography, 2>& starts,
+                      const std::optional<Expectation>& expected, Sighting& sighting);
+  bool is_doubtful(const std::optional<Alignment>& place,
+                   const std::optional<Expectation>& expected) const;
+  bool may_be_blurred(const std::optional<Alignment>& place,
+                      const std::optional<Expectation>& expected) const;
+  void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
 
   const Template& model_;
   TrackOptions options_;
   SelfLikeness self_;
+  AgreementOptions beyond_;  // what is asked where the motion does not tell
   Aligner aligner_;
   std::vector<Aligner> blurred_;  // of model_.blurred(); none for a template that is like itself
   std::vector<Guess> guesses_;
