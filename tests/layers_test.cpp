@@ -47,6 +47,7 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
     {"libsw", {"io/libav"}},
     {"png.h", {"io/png_image"}},
     {"sodium.h", {"link"}},
+    {"boost/", {"sim"}},
     {"jpeglib.h", {"io/jpeg_image"}},
     {"dlfcn.h", {"io/module"}},
     {"opencv2/videoio", {"io/capture_module"}},
