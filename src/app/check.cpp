@@ -15,6 +15,7 @@
 #include "autopilot_file.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
+#include "switch_file.hpp"
 #include "verbs.hpp"
 
 namespace kestrel::app {
@@ -151,6 +152,18 @@ void check_plan(const std::filesystem::path& file) {
   say("runs", std::to_string(planned_runs(plan, "").size()));
 }
 
+void check_switch(const std::filesystem::path& file) {
+  const SwitchTask task = read_switch_task(file);
+  fmt::print("{}: a switch\n", file.string());
+  for (std::size_t i = 0; i < task.loop.places.size(); ++i) {
+    const SwitchLink& link = task.loop.core.links[i];
+    say("link", fmt::format("{}: {} at {}{}", link.name, name(link.role),
+                            to_string(task.loop.places[i].place), link.key ? ", signed" : ""));
+  }
+  say("limits", describe(task.loop.core.envelope.speed, ""));
+  say("deadman", fmt::format("{} s", task.loop.core.deadman_s));
+}
+
 /// Which kind of file a YAML file is, by its keys.
 void check_yaml(const std::filesystem::path& file) {
   const Section root = Section::load(file);
@@ -164,6 +177,7 @@ void check_yaml(const std::filesystem::path& file) {
     return fmt::print("{}: a mount: {}\n", file.string(), describe(mount));
   }
   if (root.has("laws") || root.has("scenarios") || root.has("helicopter")) return check_plan(file);
+  if (root.has("links")) return check_switch(file);
   check_task(root);
 }
 
