@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "kestrel/io/rotating_log.hpp"
+#include "kestrel/link/real_time.hpp"
 #include "kestrel/link/status_server.hpp"
 #include "kestrel/link/switch_loop.hpp"
 #include "kestrel/link/timestamp_store.hpp"
@@ -120,6 +121,11 @@ int serve(SwitchTask task) {
   if (!task.log.empty()) log = std::make_unique<RotatingLog>(task.log, task.log_options);
   SwitchLoop loop(task.loop, time_now);
   tell_links(loop.report());
+  if (task.real_time_priority > 0 && !run_in_real_time(task.real_time_priority)) {
+    fmt::print(stderr,
+               "real_time_priority: not permitted, so the switch shares the processors with all "
+               "others (needs root, CAP_SYS_NICE or `ulimit -r`)\n");
+  }
   fmt::print(stderr, "the switch runs; Ctrl-C sends zeros and ends it\n");
   turn_until_interrupted(loop, log.get(), signing.get());
   fmt::print("{}", switch_table(status_json(loop.report())));

@@ -125,6 +125,7 @@ SwitchTask read_switch_task(const std::filesystem::path& file) {
   if (root.has("status")) task.loop.status = root.path("status");
   read_log(root, task);
   read_signing_times(root, task);
+  task.real_time_priority = within(root, "real_time_priority", 0, 0, 99);
   root.done();
   checked(root, "", [&] { task.loop.check(); });
   return task;

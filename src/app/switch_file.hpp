@@ -14,6 +14,7 @@ struct SwitchTask {
   std::filesystem::path log;  // empty: none
   RotatingLogOptions log_options;
   std::filesystem::path signing_times;  // empty: no link is signed
+  int real_time_priority = 0;           // of the thread that serves the links; 0: as any other
 };
 
 /// Throws FileError with the line for every mistake: an unknown key, a value that cannot be, a key

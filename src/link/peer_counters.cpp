@@ -26,10 +26,10 @@ Refused refused_for(mavlink::Refusal refusal) {
       return Refused::BadCrc;
     case mavlink::Refusal::UnknownIncompatFlag:
       return Refused::UnknownIncompatFlag;
-    case mavlink::Refusal::UnknownMessage:
-      return Refused::NotAllowed;
+    case mavlink::Refusal::UnknownMessage:  // with a flag, else it is a frame
+      return Refused::UnknownIncompatFlag;
   }
-  return Refused::NotAllowed;
+  return Refused::BadMagic;
 }
 
 std::optional<Refused> refused_for(mavlink::Verdict verdict) {
@@ -52,6 +52,28 @@ std::optional<Refused> refused_for(mavlink::Verdict verdict) {
 
 std::uint64_t PeerCounters::refused_in_all() const {
   return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});
+}
+
+std::uint64_t PeerCounters::refused_frames() const {
+  std::uint64_t broken = 0;
+  for (const Refused reason : {Refused::BadMagic, Refused::Truncated, Refused::BadCrc,
+                               Refused::UnknownIncompatFlag, Refused::TooFast}) {
+    broken += refused_as(reason);
+  }
+  return refused_in_all() - broken;
+}
+
+PeerCounters operator+(const PeerCounters& a, const PeerCounters& b) {
+  PeerCounters sum = a;
+  sum.chunks += b.chunks;
+  sum.bytes += b.bytes;
+  sum.frames += b.frames;
+  sum.setpoints += b.setpoints;
+  sum.forwarded += b.forwarded;
+  sum.kept += b.kept;
+  sum.delivered += b.delivered;
+  for (std::size_t i = 0; i < kRefusedReasons; ++i) sum.refused[i] += b.refused[i];
+  return sum;
 }
 
 }  // namespace kestrel

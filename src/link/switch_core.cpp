@@ -41,7 +41,8 @@ SwitchCore::SwitchCore(SwitchOptions options)
     : options_(checked(std::move(options))),
       router_(router_options(options_)),
       desk_(desk_options(options_)),
-      outbox_(options_.signing_times) {
+      outbox_(options_.signing_times),
+      departed_(options_.links.size()) {
   for (const SwitchLink& link : options_.links) {
     auto& checker = checkers_.emplace_back();
     if (link.key) checker.emplace(*link.key, options_.signing_floor);
@@ -71,7 +72,11 @@ void SwitchCore::connect(PeerId id, std::size_t link, const Address& from, Switc
 }
 
 void SwitchCore::disconnect(PeerId id, SwitchTime time) {
-  if (peers_.erase(id) == 0) return;
+  const auto found = peers_.find(id);
+  if (found == peers_.end()) return;
+  PeerCounters& departed = departed_[found->second.status.link];
+  departed = departed + found->second.status.counters;
+  peers_.erase(found);
   router_.disconnect(id);
   desk_.forget(id, time.now_s);
   log_.add(time.now_s, id, SwitchEventKind::Disconnected, {});
@@ -171,6 +176,7 @@ SwitchStatus SwitchCore::status(SwitchTime time) const {
   status.events_dropped = log_.dropped();
   status.unknown_peer_chunks = unknown_peer_chunks_;
   for (const auto& [id, peer] : peers_) status.peers.push_back(peer.status);
+  status.departed = departed_;
   return status;
 }
 

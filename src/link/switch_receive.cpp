@@ -80,9 +80,14 @@ void SwitchCore::count(Peer& peer, Refused reason, SwitchTime time) {
 
 void SwitchCore::take(Peer& peer, const mavlink::Parsed& parsed, SwitchTime time) {
   const auto* frame = std::get_if<FrameView>(&parsed.content);
+  const std::uint64_t forwarded = peer.status.counters.forwarded;
   const Reason reason = frame != nullptr ? take_frame(peer, *frame, time)
                                          : refused_for(std::get<mavlink::Refusal>(parsed.content));
-  if (reason) count(peer, *reason, time);
+  if (reason) {
+    count(peer, *reason, time);
+  } else if (peer.status.counters.forwarded == forwarded) {
+    ++peer.status.counters.kept;
+  }
 }
 
 Reason SwitchCore::take_frame(Peer& peer, const FrameView& frame, SwitchTime time) {
@@ -183,9 +188,10 @@ Reason SwitchCore::forward(Peer& peer, const FrameView& frame, Arrival arrival, 
     ++receiver.status.counters.delivered;
     forwarded = true;
   }
-  peer.status.counters.forwarded += forwarded ? 1 : 0;
   // What flight control is not to hear anyway, such as words for the operator, is no offence.
-  return target_of(frame).named ? refused : std::nullopt;
+  if (refused && target_of(frame).named) return refused;
+  peer.status.counters.forwarded += forwarded ? 1 : 0;
+  return std::nullopt;
 }
 
 Reason SwitchCore::refused_to_flight(const Peer& peer, const FrameView& frame,

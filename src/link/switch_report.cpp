@@ -32,6 +32,7 @@ Json json_of(const PeerStatus& peer, const PeerTraffic& traffic, const SwitchRep
                {"frames", c.frames},
                {"setpoints", c.setpoints},
                {"forwarded", c.forwarded},
+               {"kept", c.kept},
                {"delivered", c.delivered},
                {"queued", traffic.queued},
                {"dropped", traffic.dropped},

@@ -7,17 +7,20 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "kestrel/link/frame.hpp"
+#include "kestrel/link/real_time.hpp"
 #include "kestrel/link/setpoint.hpp"
 #include "kestrel/link/switch_loop.hpp"
 
 namespace kestrel {
 namespace {
 
+constexpr int kPriority = 10;    // of who sends, switches and receives, where the kernel permits it
 constexpr double kLost_s = 0.5;  // what takes longer counts as lost
 constexpr int kCodes = 1000;     // setpoints told apart by their speed
 constexpr double kStep_m_s = 1e-3;
@@ -36,9 +39,13 @@ struct Moment {
 /// A thread that notes when each setpoint arrives.
 class Receiver {
  public:
-  Receiver() : socket_(UdpSocket::bound_to({"127.0.0.1", 0})), address_(socket_.local()) {
+  explicit Receiver(int priority = 0)
+      : socket_(UdpSocket::bound_to({"127.0.0.1", 0})), address_(socket_.local()) {
     arrivals_.reserve(1 << 20);
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this, priority] {
+      run_in_real_time(priority);
+      run();
+    });
   }
   ~Receiver() { stop(); }
   Receiver(const Receiver&) = delete;
@@ -77,6 +84,10 @@ class Receiver {
 /// Setpoints from a companion computer at a rate, each with its code; and a heartbeat a second.
 std::vector<Moment> send_setpoints(const Address& to, double rate_hz, double duration_s) {
   UdpSocket socket = UdpSocket::connected_to(to);
+  // The first setpoint of a source only claims control.
+  socket.send(
+      mavlink::encode(velocity_setpoint({}, time_boot_ms(now_s()), {}), {1, 191, 255}).bytes());
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
   std::vector<Moment> sent;
   std::uint8_t sequence = 0;
   const double start_s = now_s();
@@ -129,8 +140,10 @@ void print_row(const std::string& what, std::size_t sent, const std::vector<doub
 /// A switch in a thread: eyes on link 1, a script on link 2.
 class RunningSwitch {
  public:
-  explicit RunningSwitch(const Address& autopilot) : loop_(options(autopilot), clock_now) {
-    thread_ = std::thread([this] {
+  explicit RunningSwitch(const Address& autopilot, int priority = 0)
+      : loop_(options(autopilot), clock_now) {
+    thread_ = std::thread([this, priority] {
+      run_in_real_time(priority);
       while (!ends_) loop_.turn();
     });
   }
@@ -210,6 +223,17 @@ class Flood {
   std::thread thread_;
 };
 
+/// What the function returns, run in a thread of its own before the others.
+template <class Function>
+auto in_real_time(const Function& function) {
+  return std::async(std::launch::async,
+                    [&] {
+                      run_in_real_time(kPriority);
+                      return function();
+                    })
+      .get();
+}
+
 std::vector<double> direct(double rate_hz, double duration_s) {
   Receiver receiver;
   const auto sent = send_setpoints(receiver.address(), rate_hz, duration_s);
@@ -231,10 +255,11 @@ std::vector<double> switched(double rate_hz, double duration_s) {
 }
 
 void flooded(double rate_hz, double duration_s) {
-  Receiver receiver;
-  RunningSwitch running(receiver.address());
+  Receiver receiver(kPriority);
+  RunningSwitch running(receiver.address(), kPriority);
   const Flood flood(running.script());
-  const auto sent = send_setpoints(running.eyes(), rate_hz, duration_s);
+  const auto sent =
+      in_real_time([&] { return send_setpoints(running.eyes(), rate_hz, duration_s); });
   const long noise = flood.sent();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const auto delays = delays_us(sent, receiver.stop());
@@ -247,6 +272,11 @@ void flooded(double rate_hz, double duration_s) {
 }  // namespace kestrel
 
 int main() {
+  const bool given = std::async(std::launch::async, [] {
+                       return kestrel::run_in_real_time(kestrel::kPriority);
+                     }).get();
+  std::printf("under noise sender, switch and receiver run %s\n",
+              given ? "in real time (SCHED_RR), noise does not" : "as all others do");
   std::printf("%-44s %7s %6s %9s %9s %9s\n", "setpoints over loopback", "sent", "lost", "median us",
               "p99 us", "worst us");
   const auto plain = kestrel::direct(1000, 5);

@@ -119,6 +119,10 @@ void WatchedSwitch::look(const std::vector<Delivery>& deliveries, std::optional<
   owner_ = status.owner;
   zeros_ = 0;
   require(status.peers.size() <= kWatchedLinks * options_.max_peers, "too many peers");
+  for (const PeerStatus& peer : status.peers) {
+    const PeerCounters& c = peer.counters;
+    require(c.frames == c.forwarded + c.kept + c.refused_frames(), "counters do not add up");
+  }
   for (const Delivery& delivery : deliveries) {
     const auto parsed = mavlink::parse(delivery.bytes);
     const auto* frame = std::get_if<mavlink::FrameView>(&parsed.content);

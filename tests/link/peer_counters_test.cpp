@@ -36,5 +36,32 @@ TEST(PeerCounters, SumTheReasons) {
   EXPECT_EQ(counters.refused_as(Refused::BadCrc), 3u);
 }
 
+TEST(PeerCounters, TellFramesFromWhatWasNone) {
+  PeerCounters counters;
+  for (std::size_t i = 0; i < kRefusedReasons; ++i) counters.refused[i] = 1;
+  EXPECT_EQ(counters.refused_frames(), kRefusedReasons - 5);
+}
+
+TEST(PeerCounters, AddUp) {
+  PeerCounters a;
+  a.chunks = 1;
+  a.bytes = 2;
+  a.frames = 3;
+  a.setpoints = 4;
+  a.forwarded = 5;
+  a.kept = 6;
+  a.delivered = 7;
+  a.refused[3] = 8;
+  const PeerCounters sum = a + a;
+  EXPECT_EQ(sum.chunks, 2u);
+  EXPECT_EQ(sum.bytes, 4u);
+  EXPECT_EQ(sum.frames, 6u);
+  EXPECT_EQ(sum.setpoints, 8u);
+  EXPECT_EQ(sum.forwarded, 10u);
+  EXPECT_EQ(sum.kept, 12u);
+  EXPECT_EQ(sum.delivered, 14u);
+  EXPECT_EQ(sum.refused[3], 16u);
+}
+
 }  // namespace
 }  // namespace kestrel

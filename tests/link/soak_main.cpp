@@ -73,17 +73,12 @@ bool check(bool good, const std::string& what) {
   return good;
 }
 
+/// Of all peers the link has and had.
 PeerCounters sum_of(const SwitchReport& report, std::size_t link) {
-  PeerCounters sum;
+  PeerCounters sum = report.core.departed.at(link);
   for (const PeerStatus& peer : report.core.peers) {
     if (peer.link != link) continue;
-    sum.chunks += peer.counters.chunks;
-    sum.bytes += peer.counters.bytes;
-    sum.frames += peer.counters.frames;
-    sum.setpoints += peer.counters.setpoints;
-    sum.forwarded += peer.counters.forwarded;
-    sum.delivered += peer.counters.delivered;
-    for (std::size_t i = 0; i < kRefusedReasons; ++i) sum.refused[i] += peer.counters.refused[i];
+    sum = sum + peer.counters;
   }
   return sum;
 }
@@ -189,6 +184,13 @@ int soak(double duration_s) {
                 "what was given out for the vehicle arrived: " + std::to_string(vehicle.delivered) +
                     " = " + std::to_string(flight.frames()) + " + " + std::to_string(dropped) +
                     " dropped (the last zeros are sent thrice)");
+  for (std::size_t link = 0; link < report.core.departed.size(); ++link) {
+    const PeerCounters c = sum_of(report, link);
+    good &= check(c.frames == c.forwarded + c.kept + c.refused_frames(),
+                  "link " + std::to_string(link) + ": " + std::to_string(c.frames) + " frames = " +
+                      std::to_string(c.forwarded) + " passed on + " + std::to_string(c.kept) +
+                      " kept + " + std::to_string(c.refused_frames()) + " refused");
+  }
   good &= check(vehicle.frames == vehicle.chunks, "each datagram of the vehicle was one frame");
   return good ? 0 : 1;
 }

@@ -51,18 +51,26 @@ const char* name(Refused reason);
 Refused refused_for(mavlink::Refusal refusal);
 std::optional<Refused> refused_for(mavlink::Verdict verdict);  // empty for Genuine
 
-/// What became of all that a peer sent, and what was sent to it. Of fixed size, whatever arrives.
+/// What became of all that a peer sent, and what was sent to it. Of fixed size, whatever arrives. A
+/// frame that was passed on to somebody and refused to flight control, to which it was addressed,
+/// counts as refused.
 struct PeerCounters {
   std::uint64_t chunks = 0;     // datagrams, or pieces of a stream
   std::uint64_t bytes = 0;      // in them
   std::uint64_t frames = 0;     // intact frames read
   std::uint64_t setpoints = 0;  // of these, setpoints that were accepted
   std::uint64_t forwarded = 0;  // of these, passed on to one peer or more
+  std::uint64_t kept = 0;       // of these, neither: for the switch itself, or for nobody
   std::uint64_t delivered = 0;  // frames given out for the peer
   std::array<std::uint64_t, kRefusedReasons> refused{};
 
   std::uint64_t refused_as(Refused reason) const { return refused[std::size_t(reason)]; }
   std::uint64_t refused_in_all() const;
+  /// Of these, intact frames: frames = forwarded + kept + refused_frames().
+  std::uint64_t refused_frames() const;
 };
+
+/// What became of what both sent.
+PeerCounters operator+(const PeerCounters& a, const PeerCounters& b);
 
 }  // namespace kestrel

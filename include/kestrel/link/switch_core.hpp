@@ -104,7 +104,8 @@ class SwitchCore {
   SwitchLog log_;
   std::vector<std::optional<mavlink::SignatureChecker>> checkers_;  // of each link
   std::map<PeerId, Peer> peers_;
-  std::optional<SourceId> owner_;  // as last logged
+  std::vector<PeerCounters> departed_;  // of each link
+  std::optional<SourceId> owner_;       // as last logged
   std::uint64_t deadman_count_ = 0;
   double next_heartbeat_s_ = -1e300;
   std::uint8_t sequence_ = 0, owner_sequence_ = 0;

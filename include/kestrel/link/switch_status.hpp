@@ -85,6 +85,7 @@ struct SwitchStatus {
   std::uint64_t events_dropped = 0;       // nobody took them in time
   std::uint64_t unknown_peer_chunks = 0;  // bytes of peers that are not connected: not read
   std::vector<PeerStatus> peers;          // by rising id
+  std::vector<PeerCounters> departed;     // of each link: its peers that are gone, summed
 };
 
 }  // namespace kestrel
