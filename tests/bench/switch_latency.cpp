@@ -254,6 +254,19 @@ std::vector<double> switched(double rate_hz, double duration_s) {
   return delays;
 }
 
+/// The same noise, to a socket that nobody reads: what the machine leaves to a direct datagram.
+void direct_beside_noise(double rate_hz, double duration_s) {
+  Receiver receiver(kPriority);
+  const UdpSocket nobody = UdpSocket::bound_to({"127.0.0.1", 0});
+  const Flood flood(nobody.local());
+  const auto sent =
+      in_real_time([&] { return send_setpoints(receiver.address(), rate_hz, duration_s); });
+  const long noise = flood.sent();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  print_row("direct, beside " + std::to_string(long(double(noise) / duration_s)) + " /s of noise",
+            sent.size(), delays_us(sent, receiver.stop()));
+}
+
 void flooded(double rate_hz, double duration_s) {
   Receiver receiver(kPriority);
   RunningSwitch running(receiver.address(), kPriority);
@@ -286,6 +299,7 @@ int main() {
               kestrel::quantile(through, 0.99) - kestrel::quantile(plain, 0.99));
   kestrel::direct(10000, 3);
   kestrel::switched(10000, 3);
+  kestrel::direct_beside_noise(1000, 5);
   kestrel::flooded(1000, 5);
   return 0;
 }
