@@ -104,7 +104,7 @@ class Fold {
 
  private:
   cv::Mat picture_of(const Step& now) const {
-    const cv::Mat drawn = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
+    cv::Mat drawn = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
     if (!chain_.beside) return drawn;
     cv::Mat both;
     cv::hconcat(chain_.beside(frame_, drawn.size()), drawn, both);
