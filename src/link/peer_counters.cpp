@@ -25,7 +25,6 @@ Refused refused_for(mavlink::Refusal refusal) {
     case mavlink::Refusal::BadCrc:
       return Refused::BadCrc;
     case mavlink::Refusal::UnknownIncompatFlag:
-      return Refused::UnknownIncompatFlag;
     case mavlink::Refusal::UnknownMessage:  // with a flag, else it is a frame
       return Refused::UnknownIncompatFlag;
   }
