@@ -68,11 +68,9 @@ class Aligner {
   std::optional<Alignment> align(const ImagePyramid& image, const Homography& start);
 
  private:
-  struct Scratch;
-  double likeness_at(const ImagePyramid& image, const Homography& H, int in_template, int in_image);
-  TemplateBlocks blocks_;
+  struct Parts;
   AlignOptions options_;
-  std::unique_ptr<Scratch> scratch_;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace kestrel
