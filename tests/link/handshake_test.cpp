@@ -37,6 +37,12 @@ struct Story {
     }
   }
 
+  /// Asks for control, and lets so many seconds go by.
+  void ask(double seconds) {
+    handshake.request_control();
+    run(seconds);
+  }
+
   void obey(const mavlink::CommandLong& command) {
     mavlink::CommandAck ack;
     ack.command = command.command;
@@ -106,14 +112,12 @@ TEST_P(HandshakeWithBoth, AsksForNothingByItself) {
 
 TEST_P(HandshakeWithBoth, TakesControlWithOneCommand) {
   Story story(GetParam());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   EXPECT_EQ(story.commands(), std::vector<int>{176});
   EXPECT_EQ(story.vehicle.heartbeat.custom_mode, profile().control_mode);
   EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
   EXPECT_EQ(story.handshake.wish(), StreamWish::Commands);
-  story.handshake.request_control();
-  story.run(1);
+  story.ask(1);
   EXPECT_EQ(story.sent.size(), 1u);
 }
 
@@ -133,8 +137,7 @@ TEST_P(HandshakeWithBoth, StreamsZerosWhileItAsks) {
 TEST_P(HandshakeWithBoth, AsksFourTimesAndThenSaysThatNobodyAnswered) {
   Story story(GetParam());
   story.answers = false;
-  story.handshake.request_control();
-  story.run(60);
+  story.ask(60);
   EXPECT_EQ(story.sent.size(), 4u);
   EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
   EXPECT_EQ(story.handshake.words(), "mode: no answer to 4 tries");
@@ -144,8 +147,7 @@ TEST_P(HandshakeWithBoth, AsksFourTimesAndThenSaysThatNobodyAnswered) {
 TEST_P(HandshakeWithBoth, ALostAnswerDoesNotMatterWhenTheModeIsReported) {
   Story story(GetParam());
   story.answers = false;
-  story.handshake.request_control();
-  story.run(1.5);
+  story.ask(1.5);
   ASSERT_FALSE(story.sent.empty());
   story.vehicle.heartbeat.custom_mode = profile().control_mode;
   story.run(0.1);
@@ -155,22 +157,19 @@ TEST_P(HandshakeWithBoth, ALostAnswerDoesNotMatterWhenTheModeIsReported) {
 TEST_P(HandshakeWithBoth, SaysThatItWasDeniedOrNotDone) {
   Story denied(GetParam());
   denied.refuses = kCommandMode;
-  denied.handshake.request_control();
-  denied.run(10);
+  denied.ask(10);
   EXPECT_EQ(denied.handshake.state(), HandshakeState::Refused);
   EXPECT_EQ(denied.handshake.words(), "mode: denied");
   EXPECT_EQ(denied.sent.size(), 1u);
   Story idle(GetParam());
   idle.acts = false;
-  idle.handshake.request_control();
-  idle.run(10);
+  idle.ask(10);
   EXPECT_EQ(idle.handshake.words(), "mode: accepted, but not done");
 }
 
 TEST_P(HandshakeWithBoth, ThePilotTakesOverAtOnceAndIsNeverOverruled) {
   Story story(GetParam());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   ASSERT_EQ(story.handshake.state(), HandshakeState::InControl);
   story.vehicle.heartbeat.custom_mode = other_mode();
   story.run(0.1);
@@ -185,16 +184,14 @@ TEST_P(HandshakeWithBoth, ThePilotTakesOverAtOnceAndIsNeverOverruled) {
   EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
   EXPECT_EQ(story.sent.size(), asked);
   story.vehicle.heartbeat.custom_mode = other_mode();
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
 }
 
 TEST_P(HandshakeWithBoth, ThePilotTakesOverWhileControlIsAskedFor) {
   Story story(GetParam());
   story.answers = false;
-  story.handshake.request_control();
-  story.run(1.5);
+  story.ask(1.5);
   const std::size_t asked = story.sent.size();
   story.vehicle.heartbeat.custom_mode = other_mode();
   story.run(10);
@@ -204,8 +201,7 @@ TEST_P(HandshakeWithBoth, ThePilotTakesOverWhileControlIsAskedFor) {
 
 TEST_P(HandshakeWithBoth, AVehicleThatIsDisarmedIsTheirs) {
   Story story(GetParam());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   story.vehicle.heartbeat.base_mode = 0;
   story.run(0.1);
   EXPECT_EQ(story.handshake.state(), HandshakeState::Released);
@@ -216,8 +212,7 @@ TEST_P(HandshakeWithBoth, NeverArmsWithoutLeave) {
     Story story(GetParam());
     story.stand_on_the_ground();
     if (armed) story.vehicle.heartbeat.base_mode = 0x80;
-    story.handshake.request_control();
-    story.run(10);
+    story.ask(10);
     EXPECT_TRUE(story.sent.empty());
     EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
     EXPECT_THAT(story.handshake.words(), HasSubstr("allow_arming"));
@@ -225,8 +220,7 @@ TEST_P(HandshakeWithBoth, NeverArmsWithoutLeave) {
   }
   Story story(GetParam(), may_arm(0));
   story.stand_on_the_ground();
-  story.handshake.request_control();
-  story.run(10);
+  story.ask(10);
   EXPECT_TRUE(story.sent.empty());
   EXPECT_THAT(story.handshake.words(), HasSubstr("takeoff_m"));
   HandshakeOptions sly;
@@ -237,8 +231,7 @@ TEST_P(HandshakeWithBoth, NeverArmsWithoutLeave) {
 TEST_P(HandshakeWithBoth, TakesOffInTheOrderOfTheAutopilotAndThenHasControl) {
   Story story(GetParam(), may_arm(5));
   story.stand_on_the_ground();
-  story.handshake.request_control();
-  story.run(5);
+  story.ask(5);
   const bool ardupilot = GetParam() == Autopilot::ArduPilot;
   EXPECT_EQ(story.commands(),
             ardupilot ? (std::vector<int>{176, 400, 22}) : (std::vector<int>{400, 176}));
@@ -259,16 +252,14 @@ TEST_P(HandshakeWithBoth, TakesOffInTheOrderOfTheAutopilotAndThenHasControl) {
 TEST_P(HandshakeWithBoth, GivesUpATakeOffThatDoesNotClimb) {
   Story story(GetParam(), may_arm(5));
   story.stand_on_the_ground();
-  story.handshake.request_control();
-  story.run(70);
+  story.ask(70);
   EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
   EXPECT_THAT(story.handshake.words(), HasSubstr("take-off"));
 }
 
 TEST_P(HandshakeWithBoth, LandsOnlyWithLeaveAndInControl) {
   Story plain(GetParam());
-  plain.handshake.request_control();
-  plain.run(3);
+  plain.ask(3);
   plain.handshake.request_landing();
   plain.run(3);
   EXPECT_EQ(plain.handshake.state(), HandshakeState::InControl);
@@ -277,8 +268,7 @@ TEST_P(HandshakeWithBoth, LandsOnlyWithLeaveAndInControl) {
   story.handshake.request_landing();
   story.run(1);
   EXPECT_TRUE(story.sent.empty());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   story.handshake.request_landing();
   story.run(1);
   EXPECT_EQ(story.vehicle.heartbeat.custom_mode, profile().landing_mode);
@@ -291,8 +281,7 @@ TEST_P(HandshakeWithBoth, LandsOnlyWithLeaveAndInControl) {
 
 TEST_P(HandshakeWithBoth, GivesControlBack) {
   Story story(GetParam());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   story.handshake.release();
   if (GetParam() == Autopilot::Px4) {
     EXPECT_EQ(story.handshake.wish(), StreamWish::Zeros);
@@ -305,8 +294,7 @@ TEST_P(HandshakeWithBoth, GivesControlBack) {
 
 TEST_P(HandshakeWithBoth, AnAutopilotThatIsNoLongerHeardIsNotControlled) {
   Story story(GetParam());
-  story.handshake.request_control();
-  story.run(3);
+  story.ask(3);
   story.beats = false;
   story.run(4.9);
   EXPECT_EQ(story.handshake.state(), HandshakeState::InControl);
@@ -352,8 +340,7 @@ TEST_P(HandshakeWithBoth, LeavesTheModeToThePilotWhenToldTo) {
 TEST(Handshake, RefusesAVehicleWhoseRulesAreNotKnown) {
   Story story(Autopilot::ArduPilot);
   story.vehicle.heartbeat.type = 1;  // a plane
-  story.handshake.request_control();
-  story.run(5);
+  story.ask(5);
   EXPECT_TRUE(story.sent.empty());
   EXPECT_EQ(story.handshake.state(), HandshakeState::Refused);
 }

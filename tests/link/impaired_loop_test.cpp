@@ -61,19 +61,6 @@ FlownLoopOptions options_named(const std::string& name) {
   return options;
 }
 
-/// All that a poor radio does, but for loss. Corruption passes the checksum about once in 65536.
-ImpairmentOptions poor_line(double loss) {
-  ImpairmentOptions line;
-  line.loss = loss;
-  line.delay_s = 0.06;
-  line.jitter_s = 0.04;
-  line.reordering = 0.1;
-  line.duplication = 0.1;
-  line.corruption = 0.05;
-  line.truncation = 0.02;
-  return line;
-}
-
 TEST(ImpairedLoop, ConvergesOnAPerfectLine) {
   const FlownLoopOptions options = options_named("perfect");
   const FlownLoop loop = flown_loop(options);
@@ -88,7 +75,7 @@ TEST(ImpairedLoop, ConvergesOnAPerfectLine) {
 TEST(ImpairedLoop, ConvergesWithUpToHalfOfAllDatagramsLost) {
   for (const double loss : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}) {
     FlownLoopOptions options = options_named("loss " + std::to_string(loss));
-    options.to_switch = poor_line(loss);
+    options.to_switch = poor_radio(loss);
     const FlownLoop loop = flown_loop(options);
     expect_harmless(loop, options);
     EXPECT_LT(goal_error_m(loop.end()), 0.1) << loss;
@@ -99,7 +86,7 @@ TEST(ImpairedLoop, ConvergesWithUpToHalfOfAllDatagramsLost) {
 
 TEST(ImpairedLoop, ConvergesWithABadLineBehindTheSwitchToo) {
   FlownLoopOptions options = options_named("both");
-  options.to_switch = options.to_vehicle = poor_line(0.3);
+  options.to_switch = options.to_vehicle = poor_radio(0.3);
   const FlownLoop loop = flown_loop(options);
   EXPECT_LT(goal_error_m(loop.end()), 0.1);
   EXPECT_LT(std::abs(loop.end().yaw), 2 * kDegree);
@@ -138,7 +125,7 @@ TEST(ImpairedLoop, StopsWhereNothingGetsThroughAtAll) {
 TEST(ImpairedLoop, ACutLineIsAnExactZeroWithinTheDeadmanTime) {
   for (const bool poor : {false, true}) {
     FlownLoopOptions options = options_named("cut");
-    if (poor) options.to_switch = poor_line(0.2);
+    if (poor) options.to_switch = poor_radio(0.2);
     options.cut_from_s = 3;
     options.duration_s = 8;
     const FlownLoop loop = flown_loop(options);
@@ -158,7 +145,7 @@ TEST(ImpairedLoop, ACutLineIsAnExactZeroWithinTheDeadmanTime) {
 TEST(ImpairedLoop, AFrozenPictureBehindALiveSenderIsAnExactZeroTooAndStaysIt) {
   for (const bool poor : {false, true}) {
     FlownLoopOptions options = options_named("frozen");
-    if (poor) options.to_switch = poor_line(0.2);
+    if (poor) options.to_switch = poor_radio(0.2);
     options.frozen_from_s = 3;
     options.duration_s = 8;
     const FlownLoop loop = flown_loop(options);
@@ -173,7 +160,7 @@ TEST(ImpairedLoop, AFrozenPictureBehindALiveSenderIsAnExactZeroTooAndStaysIt) {
 
 TEST(ImpairedLoop, AfterACutItFliesOnToTheGoal) {
   FlownLoopOptions options = options_named("mended");
-  options.to_switch = poor_line(0.2);
+  options.to_switch = poor_radio(0.2);
   options.cut_from_s = 3;
   options.cut_until_s = 9;
   options.duration_s = 46;
@@ -185,7 +172,7 @@ TEST(ImpairedLoop, AfterACutItFliesOnToTheGoal) {
 
 TEST(ImpairedLoop, TheLossOfTheTargetStopsTheVehicleOverABadLine) {
   FlownLoopOptions options = options_named("blind");
-  options.to_switch = poor_line(0.5);
+  options.to_switch = poor_radio(0.5);
   options.blind_from_s = 3;
   options.duration_s = 10;
   const FlownLoop loop = flown_loop(options);
@@ -199,7 +186,7 @@ TEST(ImpairedLoop, TheLossOfTheTargetStopsTheVehicleOverABadLine) {
 
 TEST(ImpairedLoop, TheSameSeedIsTheSameFlight) {
   FlownLoopOptions options = options_named("repeat");
-  options.to_switch = options.to_vehicle = poor_line(0.3);
+  options.to_switch = options.to_vehicle = poor_radio(0.3);
   options.duration_s = 10;
   const FlownLoop one = flown_loop(options);
   const FlownLoop two = flown_loop(options);

@@ -33,18 +33,6 @@ long open_descriptors() {
                             std::filesystem::directory_iterator()));
 }
 
-ImpairmentOptions poor_datagrams() {
-  ImpairmentOptions line;
-  line.loss = 0.2;
-  line.duplication = 0.1;
-  line.corruption = 0.05;
-  line.truncation = 0.05;
-  line.reordering = 0.1;
-  line.delay_s = 0.03;
-  line.jitter_s = 0.02;
-  return line;
-}
-
 ImpairmentOptions poor_stream() {
   ImpairmentOptions line;
   line.loss = 0.02;
@@ -97,7 +85,7 @@ void print(const char* who, const PeerCounters& c) {
 struct World {
   explicit World(const RunningSwitch& running, SoakFlight& vehicle)
       : flight(vehicle),
-        air(relay_to(running.address(1), poor_datagrams())),
+        air(relay_to(running.address(1), poor_radio(0.2))),
         wire(relay_to(running.address(2), poor_stream())),
         companion(air.local(), 191, {0.5, 0.25, 0, 0.1}, 300),
         script(running.address(3), 195, {0.1, -0.3, 0, 0}, 5000),

@@ -37,6 +37,18 @@ void flip_bits(std::vector<std::uint8_t>& piece, std::uint64_t chance) {
 
 }  // namespace
 
+ImpairmentOptions poor_radio(double loss) {
+  ImpairmentOptions line;
+  line.loss = loss;
+  line.delay_s = 0.06;
+  line.jitter_s = 0.04;
+  line.reordering = 0.1;
+  line.duplication = 0.1;
+  line.corruption = 0.05;
+  line.truncation = 0.02;
+  return line;
+}
+
 void ImpairmentOptions::check(Carriage carriage) const {
   require_share(loss, "loss");
   require_share(duplication, "duplication");

@@ -38,6 +38,9 @@ struct ImpairmentOptions {
   void check(Carriage carriage) const;
 };
 
+/// All that a poor radio does. Corruption passes the checksum about once in 65536.
+ImpairmentOptions poor_radio(double loss);
+
 /// What became of the pieces. Of datagrams, sent + duplicated = lost + overflowed + delivered +
 /// those still under way; of streams, sent + split = delivered + those still under way.
 struct LineCounts {
