@@ -36,13 +36,13 @@ const std::vector<std::string>& helicopter_condition_keys() {
   return names;
 }
 
-Conditions with_setting(Conditions conditions, const ConditionSetting& setting) {
-  return changed_by(std::move(conditions), setting.first, setting.second);
+Conditions with_setting(const Conditions& conditions, const ConditionSetting& setting) {
+  return changed_by(conditions, setting.first, setting.second);
 }
 
-HelicopterConditions with_setting(HelicopterConditions conditions,
+HelicopterConditions with_setting(const HelicopterConditions& conditions,
                                   const ConditionSetting& setting) {
-  return changed_by(std::move(conditions), setting.first, setting.second);
+  return changed_by(conditions, setting.first, setting.second);
 }
 
 Conditions with_modifier(const Conditions& conditions, const PlannedModifier& modifier) {

@@ -39,8 +39,9 @@ const std::vector<std::string>& helicopter_condition_keys();
 
 /// The conditions with one key changed. Throws std::invalid_argument for a key that is none, a
 /// fraction where a whole number is wanted, and a value out of range.
-Conditions with_setting(Conditions conditions, const ConditionSetting& setting);
-HelicopterConditions with_setting(HelicopterConditions conditions, const ConditionSetting& setting);
+Conditions with_setting(const Conditions& conditions, const ConditionSetting& setting);
+HelicopterConditions with_setting(const HelicopterConditions& conditions,
+                                  const ConditionSetting& setting);
 
 /// The conditions as the modifier leaves them. Throws as with_setting and modified().
 Conditions with_modifier(const Conditions& conditions, const PlannedModifier& modifier);
