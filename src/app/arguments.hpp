@@ -78,7 +78,8 @@ struct ReceiveArguments {
 /// Moves a real vehicle, one axis after the other, and says what it did.
 struct JogArguments {
   std::string to;
-  std::vector<Axis> axes = {Axis::Forward, Axis::Right, Axis::Down, Axis::Yaw};
+  std::vector<MotionAxis> axes = {MotionAxis::Forward, MotionAxis::Right, MotionAxis::Down,
+                                  MotionAxis::Yaw};
   double speed_m_s = 0.3;
   double yaw_rate_deg_s = 10;
   double seconds = 2;

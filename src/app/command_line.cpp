@@ -134,8 +134,10 @@ void add_jog(CLI::App& app, const std::shared_ptr<JogArguments>& a) {
   auto* verb = app.add_subcommand(
       "jog", "Move a vehicle along one axis at a time, slowly and briefly, and say what it did");
   verb->add_option("--to", a->to, "The autopilot: udp://HOST:PORT")->required();
-  const std::map<std::string, Axis> known{
-      {"forward", Axis::Forward}, {"right", Axis::Right}, {"down", Axis::Down}, {"yaw", Axis::Yaw}};
+  const std::map<std::string, MotionAxis> known{{"forward", MotionAxis::Forward},
+                                                {"right", MotionAxis::Right},
+                                                {"down", MotionAxis::Down},
+                                                {"yaw", MotionAxis::Yaw}};
   verb->add_option("--axes", a->axes, "Which, in this order (default forward right down yaw)")
       ->transform(CLI::CheckedTransformer(known, CLI::ignore_case));
   verb->add_option("--speed", a->speed_m_s, "m/s, -1 to 1; negative: the other way (default 0.3)")

@@ -91,20 +91,20 @@ std::optional<Moment> moment(AutopilotLink& link) {
 }
 
 struct Jog {
-  Axis axis = Axis::Forward;
+  MotionAxis axis = MotionAxis::Forward;
   double rate = 0;
   std::string words;
   std::string verdict;
   Excursion done;
 };
 
-Jog jog(AutopilotLink& link, const JogArguments& a, Axis axis) {
+Jog jog(AutopilotLink& link, const JogArguments& a, MotionAxis axis) {
   Jog result;
   result.axis = axis;
-  result.rate = axis == Axis::Yaw ? a.yaw_rate_deg_s * kDegree : a.speed_m_s;
+  result.rate = axis == MotionAxis::Yaw ? a.yaw_rate_deg_s * kDegree : a.speed_m_s;
   result.verdict = "not tried";
-  const std::string what = axis == Axis::Yaw ? fmt::format("{} deg/s", a.yaw_rate_deg_s)
-                                             : fmt::format("{} m/s", a.speed_m_s);
+  const std::string what = axis == MotionAxis::Yaw ? fmt::format("{} deg/s", a.yaw_rate_deg_s)
+                                                   : fmt::format("{} m/s", a.speed_m_s);
   if (!a.yes &&
       !agreed(link, fmt::format("move {} by {} for {} s?", name(axis), what, a.seconds))) {
     result.words = fmt::format("{}: not tried", name(axis));
@@ -129,7 +129,7 @@ Jog jog(AutopilotLink& link, const JogArguments& a, Axis axis) {
 nlohmann::ordered_json as_json(const Jog& j) {
   return {{"axis", name(j.axis)},
           {"rate", j.rate},
-          {"unit", j.axis == Axis::Yaw ? "rad/s" : "m/s"},
+          {"unit", j.axis == MotionAxis::Yaw ? "rad/s" : "m/s"},
           {"verdict", j.verdict},
           {"words", j.words},
           {"moved_forward_m", j.done.forward_m},
@@ -169,7 +169,7 @@ int run(const JogArguments& a) {
   fmt::print(stderr, "{}\n", link.status().words);
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   bool good = true;
-  for (const Axis axis : a.axes) {
+  for (const MotionAxis axis : a.axes) {
     if (interrupted() || link.status().control != HandshakeState::InControl) break;
     const Jog result = jog(link, a, axis);
     good = good && result.verdict == name(AxisVerdict::AsCommanded);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-double part(const Excursion& d, Axis axis) {
+double part(const Excursion& d, MotionAxis axis) {
   const std::array<double, 4> parts = {d.forward_m, d.right_m, d.down_m, d.yaw_rad};
   return parts[std::size_t(axis)];
 }
@@ -24,10 +24,10 @@ std::string number(const char* format, double value) {
 }
 
 /// The axis along which it went furthest; Yaw when it was asked to turn.
-Axis widest(Axis asked, const Excursion& d) {
-  if (asked == Axis::Yaw) return Axis::Yaw;
-  Axis most = asked;
-  for (const Axis axis : {Axis::Forward, Axis::Right, Axis::Down}) {
+MotionAxis widest(MotionAxis asked, const Excursion& d) {
+  if (asked == MotionAxis::Yaw) return MotionAxis::Yaw;
+  MotionAxis most = asked;
+  for (const MotionAxis axis : {MotionAxis::Forward, MotionAxis::Right, MotionAxis::Down}) {
     if (std::abs(part(d, axis)) > std::abs(part(d, most))) most = axis;
   }
   return most;
@@ -35,12 +35,12 @@ Axis widest(Axis asked, const Excursion& d) {
 
 }  // namespace
 
-const char* name(Axis axis) {
+const char* name(MotionAxis axis) {
   constexpr const char* kNames[] = {"forward", "right", "down", "yaw"};
   return kNames[std::size_t(axis)];
 }
 
-const char* opposite_name(Axis axis) {
+const char* opposite_name(MotionAxis axis) {
   constexpr const char* kNames[] = {"back", "left", "up", "yaw left"};
   return kNames[std::size_t(axis)];
 }
@@ -50,7 +50,7 @@ const char* name(AxisVerdict verdict) {
   return kNames[std::size_t(verdict)];
 }
 
-VelocityCommand along(Axis axis, double rate) {
+VelocityCommand along(MotionAxis axis, double rate) {
   Eigen::Vector4d v = Eigen::Vector4d::Zero();
   v[Eigen::Index(axis)] = rate;
   return VelocityCommand::from_vector(v);
@@ -65,20 +65,20 @@ Excursion excursion(const VehicleMotion& from, double yaw_from_rad, const Vehicl
           wrap_angle(yaw_to_rad - yaw_from_rad)};
 }
 
-AxisVerdict judge(Axis axis, double rate, double seconds, const Excursion& done) {
+AxisVerdict judge(MotionAxis axis, double rate, double seconds, const Excursion& done) {
   const double half = std::abs(rate * seconds) / 2;
-  const Axis most = widest(axis, done);
+  const MotionAxis most = widest(axis, done);
   if (!(std::abs(part(done, most)) >= half)) return AxisVerdict::NotMoved;
   if (most != axis) return AxisVerdict::OtherAxis;
   return part(done, axis) * rate > 0 ? AxisVerdict::AsCommanded : AxisVerdict::Opposite;
 }
 
-std::string words(Axis axis, double rate, double seconds, const Excursion& done) {
-  const auto named = [](Axis which, double signed_part) {
+std::string words(MotionAxis axis, double rate, double seconds, const Excursion& done) {
+  const auto named = [](MotionAxis which, double signed_part) {
     return std::string(signed_part < 0 ? opposite_name(which) : name(which));
   };
-  const bool turn = axis == Axis::Yaw;
-  const Axis most = widest(axis, done);
+  const bool turn = axis == MotionAxis::Yaw;
+  const MotionAxis most = widest(axis, done);
   const double moved = part(done, most);
   std::string text = "commanded " + named(axis, rate) +
                      (turn ? number(" %.0f deg/s", std::abs(rate) / kDegree)

@@ -23,32 +23,33 @@ TEST(AxisResponse, TurnsAWayIntoTheHeadingItBeganWith) {
 }
 
 TEST(AxisResponse, CommandsOneAxisAlone) {
-  EXPECT_EQ(along(Axis::Forward, 2).vector(), Eigen::Vector4d(2, 0, 0, 0));
-  EXPECT_EQ(along(Axis::Right, 2).vector(), Eigen::Vector4d(0, 2, 0, 0));
-  EXPECT_EQ(along(Axis::Down, 2).vector(), Eigen::Vector4d(0, 0, 2, 0));
-  EXPECT_EQ(along(Axis::Yaw, 2).vector(), Eigen::Vector4d(0, 0, 0, 2));
+  EXPECT_EQ(along(MotionAxis::Forward, 2).vector(), Eigen::Vector4d(2, 0, 0, 0));
+  EXPECT_EQ(along(MotionAxis::Right, 2).vector(), Eigen::Vector4d(0, 2, 0, 0));
+  EXPECT_EQ(along(MotionAxis::Down, 2).vector(), Eigen::Vector4d(0, 0, 2, 0));
+  EXPECT_EQ(along(MotionAxis::Yaw, 2).vector(), Eigen::Vector4d(0, 0, 0, 2));
 }
 
 TEST(AxisResponse, TellsRightFromWrong) {
   // 0.3 m/s for 2 s: 0.6 m.
-  EXPECT_EQ(judge(Axis::Right, 0.3, 2, {0.1, 0.5, 0, 0}), AxisVerdict::AsCommanded);
-  EXPECT_EQ(judge(Axis::Right, 0.3, 2, {0.1, -0.5, 0, 0}), AxisVerdict::Opposite);
-  EXPECT_EQ(judge(Axis::Right, -0.3, 2, {0.1, -0.5, 0, 0}), AxisVerdict::AsCommanded);
-  EXPECT_EQ(judge(Axis::Right, 0.3, 2, {-0.5, 0.1, 0, 0}), AxisVerdict::OtherAxis);
-  EXPECT_EQ(judge(Axis::Right, 0.3, 2, {0.05, 0.2, 0, 3}), AxisVerdict::NotMoved);
-  EXPECT_EQ(judge(Axis::Right, 0.3, 2, {std::nan(""), std::nan(""), 0, 0}), AxisVerdict::NotMoved);
-  EXPECT_EQ(judge(Axis::Yaw, 0.3, 2, {9, 9, 9, 0.5}), AxisVerdict::AsCommanded);
-  EXPECT_EQ(judge(Axis::Yaw, 0.3, 2, {0, 0, 0, -0.5}), AxisVerdict::Opposite);
+  EXPECT_EQ(judge(MotionAxis::Right, 0.3, 2, {0.1, 0.5, 0, 0}), AxisVerdict::AsCommanded);
+  EXPECT_EQ(judge(MotionAxis::Right, 0.3, 2, {0.1, -0.5, 0, 0}), AxisVerdict::Opposite);
+  EXPECT_EQ(judge(MotionAxis::Right, -0.3, 2, {0.1, -0.5, 0, 0}), AxisVerdict::AsCommanded);
+  EXPECT_EQ(judge(MotionAxis::Right, 0.3, 2, {-0.5, 0.1, 0, 0}), AxisVerdict::OtherAxis);
+  EXPECT_EQ(judge(MotionAxis::Right, 0.3, 2, {0.05, 0.2, 0, 3}), AxisVerdict::NotMoved);
+  EXPECT_EQ(judge(MotionAxis::Right, 0.3, 2, {std::nan(""), std::nan(""), 0, 0}),
+            AxisVerdict::NotMoved);
+  EXPECT_EQ(judge(MotionAxis::Yaw, 0.3, 2, {9, 9, 9, 0.5}), AxisVerdict::AsCommanded);
+  EXPECT_EQ(judge(MotionAxis::Yaw, 0.3, 2, {0, 0, 0, -0.5}), AxisVerdict::Opposite);
 }
 
 TEST(AxisResponse, SaysItInPlainWords) {
-  EXPECT_EQ(words(Axis::Right, 0.3, 2, {0.1, 0.52, 0, 0}),
+  EXPECT_EQ(words(MotionAxis::Right, 0.3, 2, {0.1, 0.52, 0, 0}),
             "commanded right 0.30 m/s for 2.0 s: the vehicle moved right 0.52 m");
-  EXPECT_EQ(words(Axis::Down, -0.3, 2, {0.1, 0.1, 0.55, 0}),
+  EXPECT_EQ(words(MotionAxis::Down, -0.3, 2, {0.1, 0.1, 0.55, 0}),
             "commanded up 0.30 m/s for 2.0 s: the vehicle moved down 0.55 m");
-  EXPECT_EQ(words(Axis::Forward, 0.3, 2, {0.01, 0, 0, 0}),
+  EXPECT_EQ(words(MotionAxis::Forward, 0.3, 2, {0.01, 0, 0, 0}),
             "commanded forward 0.30 m/s for 2.0 s: the vehicle did not follow (forward 0.01 m)");
-  EXPECT_EQ(words(Axis::Yaw, 10 * M_PI / 180, 2, {0, 0, 0, 18 * M_PI / 180}),
+  EXPECT_EQ(words(MotionAxis::Yaw, 10 * M_PI / 180, 2, {0, 0, 0, 18 * M_PI / 180}),
             "commanded yaw 10 deg/s for 2.0 s: the vehicle turned right 18 deg");
 }
 

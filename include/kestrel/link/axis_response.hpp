@@ -9,14 +9,14 @@
 namespace kestrel {
 
 /// A way the vehicle can be asked to move, one axis at a time.
-enum class Axis { Forward, Right, Down, Yaw };
+enum class MotionAxis { Forward, Right, Down, Yaw };
 
 /// "forward", "right", "down", "yaw"; of the other way "back", "left", "up", "yaw left".
-const char* name(Axis axis);
-const char* opposite_name(Axis axis);
+const char* name(MotionAxis axis);
+const char* opposite_name(MotionAxis axis);
 
 /// The command that moves this axis alone, by m/s or rad/s.
-VelocityCommand along(Axis axis, double rate);
+VelocityCommand along(MotionAxis axis, double rate);
 
 /// What the vehicle did between two moments: metres forward, right, down in the heading it had at
 /// the first (yaw alone turned back), and the turn, rad, clockwise seen from above.
@@ -45,9 +45,9 @@ const char* name(AxisVerdict verdict);
 /// and its estimator errs: half of the way is enough to know it. Another axis counts when the
 /// vehicle went further along it than along the one asked for, and at least half the way. A turn is
 /// judged by the turn alone.
-AxisVerdict judge(Axis axis, double rate, double seconds, const Excursion& done);
+AxisVerdict judge(MotionAxis axis, double rate, double seconds, const Excursion& done);
 
 /// In plain words: "commanded right 0.30 m/s for 2.0 s: the vehicle moved right 0.52 m".
-std::string words(Axis axis, double rate, double seconds, const Excursion& done);
+std::string words(MotionAxis axis, double rate, double seconds, const Excursion& done);
 
 }  // namespace kestrel
