@@ -21,9 +21,8 @@ bool begins_with_a_known_frame(Bytes datagram) {
 
 DatagramPort::DatagramPort(const LinkPlace& place, const PortOptions& options, std::size_t number,
                            Poller& poller)
-    : place_(place), options_(options), numbers_(number), socket_(opened(place)) {
-  options_.check();
-  poller.watch(socket_.descriptor(), std::uint64_t(number) << 32);
+    : LinkPort(place, options, number), socket_(opened(place)) {
+  poller.watch(socket_.descriptor(), tag_);
 }
 
 std::optional<PortEvent> DatagramPort::next(std::uint64_t, double now_s) noexcept {

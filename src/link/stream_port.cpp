@@ -16,13 +16,7 @@ constexpr double kLongestConnecting_s = 3;
 
 StreamPort::StreamPort(const LinkPlace& place, const PortOptions& options, std::size_t number,
                        Poller& poller)
-    : place_(place),
-      options_(options),
-      numbers_(number),
-      tag_(std::uint64_t(number) << 32),
-      poller_(&poller),
-      pause_s_(options.retry_s) {
-  options_.check();
+    : LinkPort(place, options, number), poller_(&poller), pause_s_(options.retry_s) {
   if (!is_server(place.kind)) return;
   listener_ = StreamListener::bound_to(place.address);
   poller.watch(listener_->descriptor(), tag_);
@@ -84,7 +78,7 @@ std::optional<PortEvent> StreamPort::connected(Peers::iterator peer, double now_
 }
 
 PortEvent StreamPort::end(Peers::iterator peer, double now_s) {
-  const PortEvent event{peer->first, false, true, peer->second.socket.peer(), {}};
+  PortEvent event{peer->first, false, true, peer->second.socket.peer(), {}};
   counts_.dropped += std::uint64_t(peer->second.socket.queue().dropped());
   counts_.dropped += peer->second.socket.queue().size();
   peers_.erase(peer);

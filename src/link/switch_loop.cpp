@@ -62,7 +62,7 @@ SwitchLoop::SwitchLoop(const SwitchLoopOptions& options, Clock clock)
   ports_.reserve(link_of_.size());
   for (std::size_t number = 0; number < link_of_.size(); ++number) {
     const SwitchPlace& at = options_.places[link_of_[number]];
-    ports_.emplace_back(at.place, at.port, number, poller_);
+    ports_.push_back(open_link_port(at.place, at.port, number, poller_));
   }
   if (options_.status.empty()) return;
   status_ = std::make_unique<StatusServer>(options_.status);
@@ -87,7 +87,7 @@ void SwitchLoop::serve(std::uint64_t tag) {
   const auto number = std::size_t(tag >> 32);
   for (std::size_t i = 0; i < options_.batch; ++i) {
     const SwitchTime time = clock_();
-    const std::optional<PortEvent> event = ports_[number].next(tag, time.now_s);
+    const std::optional<PortEvent> event = ports_[number]->next(tag, time.now_s);
     if (!event) return;
     handle(number, *event, time);
   }
@@ -102,7 +102,7 @@ void SwitchLoop::handle(std::size_t number, const PortEvent& event, const Switch
 void SwitchLoop::deliver(const std::vector<Delivery>& deliveries) {
   for (const Delivery& each : deliveries) {
     const std::size_t number = port_of(each.to);
-    if (number < ports_.size()) ports_[number].send(each.to, each.bytes);
+    if (number < ports_.size()) ports_[number]->send(each.to, each.bytes);
   }
 }
 
@@ -112,7 +112,7 @@ void SwitchLoop::keep_time(const SwitchTime& time) {
   next_tick_s_ = std::max(next_tick_s_ + kTick_s, time.now_s);
   deliver(core_.tick(time));
   for (std::size_t number = 0; number < ports_.size(); ++number) {
-    while (const std::optional<PortEvent> event = ports_[number].due(time.now_s)) {
+    while (const std::optional<PortEvent> event = ports_[number]->due(time.now_s)) {
       handle(number, *event, time);
     }
   }
@@ -126,7 +126,7 @@ void SwitchLoop::shutdown() {
     for (SwitchTime time = clock_(); time.now_s < std::min(next_s, until_s); time = clock_()) {
       // Nothing is obeyed any more, but what waits for room goes out.
       for (const std::uint64_t tag : poller_.wait(next_s - time.now_s)) {
-        if (tag < kStatusTag) ports_[std::size_t(tag >> 32)].next(tag, time.now_s);
+        if (tag < kStatusTag) ports_[std::size_t(tag >> 32)]->next(tag, time.now_s);
       }
     }
   }
@@ -137,12 +137,12 @@ SwitchReport SwitchLoop::report() const {
   report.core = core_.status(clock_());
   for (std::size_t link = 0; link < options_.core.links.size(); ++link) {
     const SwitchLink& told = options_.core.links[link];
-    const LinkPort& port = ports_[number_of_[link]];
+    const LinkPort& port = *ports_[number_of_[link]];
     report.links.push_back(
         {told.name, told.role, {options_.places[link].place.kind, port.address()}, port.counts()});
   }
   for (const PeerStatus& peer : report.core.peers) {
-    report.traffic.push_back(ports_[port_of(peer.peer)].traffic(peer.peer));
+    report.traffic.push_back(ports_[port_of(peer.peer)]->traffic(peer.peer));
   }
   report.turns = turns_;
   report.longest_turn_s = longest_turn_s_;

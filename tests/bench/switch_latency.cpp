@@ -15,6 +15,7 @@
 #include "kestrel/link/frame.hpp"
 #include "kestrel/link/real_time.hpp"
 #include "kestrel/link/setpoint.hpp"
+#include "kestrel/link/socket.hpp"
 #include "kestrel/link/switch_loop.hpp"
 
 namespace kestrel {

@@ -71,16 +71,16 @@ TEST(StreamPort, EveryConnectionIsAPeer) {
 }
 
 TEST(StreamPort, AClientConnectsAndAfterALossAgain) {
-  Watched at({LinkKind::TcpServer, {"127.0.0.1", 0}});
-  Watched client({LinkKind::TcpClient, at.port.address()});
+  std::optional<Watched> at(std::in_place, LinkPlace{LinkKind::TcpServer, {"127.0.0.1", 0}});
+  Watched client({LinkKind::TcpClient, at->port.address()});
   EXPECT_FALSE(client.port.due(0));
   EXPECT_TRUE(client.next(0).came);
-  const PeerId there = at.next(0).peer;
-  at.port.send(there, kFrame.bytes());
+  const PeerId there = at->next(0).peer;
+  at->port.send(there, kFrame.bytes());
   EXPECT_EQ(client.next(0).bytes.size, kFrame.size);
 
-  const Address address = at.port.address();
-  { const Watched closed = std::move(at); }
+  const Address address = at->port.address();
+  at.reset();
   EXPECT_TRUE(client.next(10).went);
   client.port.due(10);  // not at once
   EXPECT_EQ(client.port.counts().attempts, 1u);

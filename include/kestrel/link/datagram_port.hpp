@@ -3,9 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "kestrel/link/link_place.hpp"
-#include "kestrel/link/poller.hpp"
-#include "kestrel/link/port_event.hpp"
+#include "kestrel/link/link_port.hpp"
 #include "kestrel/link/socket.hpp"
 
 namespace kestrel {
@@ -13,18 +11,16 @@ namespace kestrel {
 /// The UDP side of a link. Of a client the one peer is where it sends to, from the first due() on.
 /// Of a server a peer is a sender whose datagram began with an intact frame of a known message,
 /// until it is silent for forget_s; noise from forged addresses takes nobody's place.
-class DatagramPort {
+class DatagramPort final : public LinkPort {
  public:
   DatagramPort(const LinkPlace& place, const PortOptions& options, std::size_t number,
                Poller& poller);
 
-  /// As LinkPort says.
-  std::optional<PortEvent> next(std::uint64_t tag, double now_s) noexcept;
-  std::optional<PortEvent> due(double now_s) noexcept;
-  void send(PeerId peer, Bytes frame) noexcept;
-  Address address() const;
-  const PortCounts& counts() const { return counts_; }
-  PeerTraffic traffic(PeerId peer) const;
+  std::optional<PortEvent> next(std::uint64_t tag, double now_s) noexcept override;
+  std::optional<PortEvent> due(double now_s) noexcept override;
+  void send(PeerId peer, Bytes frame) noexcept override;
+  Address address() const override;
+  PeerTraffic traffic(PeerId peer) const override;
 
  private:
   struct Peer {
@@ -37,12 +33,8 @@ class DatagramPort {
   PortEvent stranger(const Datagram& datagram, double now_s);
   std::optional<PortEvent> silent_for(double limit_s, double now_s);
 
-  LinkPlace place_;
-  PortOptions options_;
-  PeerNumbers numbers_;
   UdpSocket socket_;
   std::vector<Peer> peers_;
-  PortCounts counts_;
 };
 
 }  // namespace kestrel

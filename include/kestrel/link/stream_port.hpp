@@ -3,27 +3,23 @@
 #include <map>
 #include <optional>
 
-#include "kestrel/link/link_place.hpp"
-#include "kestrel/link/poller.hpp"
-#include "kestrel/link/port_event.hpp"
+#include "kestrel/link/link_port.hpp"
 #include "kestrel/link/stream_socket.hpp"
 
 namespace kestrel {
 
 /// The TCP side of a link. A client connects, and after a loss again, with pauses that double; a
 /// server accepts up to max_peers. Each connection is a peer of its own.
-class StreamPort {
+class StreamPort final : public LinkPort {
  public:
   StreamPort(const LinkPlace& place, const PortOptions& options, std::size_t number,
              Poller& poller);
 
-  /// As LinkPort says.
-  std::optional<PortEvent> next(std::uint64_t tag, double now_s) noexcept;
-  std::optional<PortEvent> due(double now_s) noexcept;
-  void send(PeerId peer, Bytes frame) noexcept;
-  Address address() const;
-  const PortCounts& counts() const { return counts_; }
-  PeerTraffic traffic(PeerId peer) const;
+  std::optional<PortEvent> next(std::uint64_t tag, double now_s) noexcept override;
+  std::optional<PortEvent> due(double now_s) noexcept override;
+  void send(PeerId peer, Bytes frame) noexcept override;
+  Address address() const override;
+  PeerTraffic traffic(PeerId peer) const override;
 
  private:
   struct Peer {
@@ -40,16 +36,11 @@ class StreamPort {
   void look_for_room(Peers::iterator peer) noexcept;
   std::uint64_t tag_of(PeerId peer) const { return tag_ | (peer & kPeerMask); }
 
-  LinkPlace place_;
-  PortOptions options_;
-  PeerNumbers numbers_;
-  std::uint64_t tag_;
   Poller* poller_;
   std::optional<StreamListener> listener_;
   Peers peers_;
   double pause_s_;
   double next_attempt_s_ = 0;
-  PortCounts counts_;
 };
 
 }  // namespace kestrel

@@ -52,7 +52,7 @@ class SwitchLoop {
   SwitchReport report() const;
   std::vector<SwitchEvent> take_events() { return core_.take_events(); }
   /// Where a link listens, with the real port.
-  Address address(std::size_t link) const { return ports_[number_of_[link]].address(); }
+  Address address(std::size_t link) const { return ports_[number_of_[link]]->address(); }
 
  private:
   void serve(std::uint64_t tag);
@@ -66,7 +66,7 @@ class SwitchLoop {
   Poller poller_;
   std::vector<std::size_t> link_of_;    // by the number of a port: flight control's are the lowest
   std::vector<std::size_t> number_of_;  // the inverse
-  std::vector<LinkPort> ports_;
+  std::vector<std::unique_ptr<LinkPort>> ports_;
   std::unique_ptr<StatusServer> status_;
   double next_tick_s_;
   std::uint64_t turns_ = 0;

@@ -84,19 +84,19 @@ constexpr auto all_fields() {
 /// The fields of a message, with their places in the payload.
 template <class M>
 constexpr auto field_infos() {
-  constexpr auto fields = all_fields<M>();
-  constexpr std::size_t count = std::tuple_size_v<decltype(fields)>;
-  constexpr std::size_t base = std::tuple_size_v<decltype(Layout<M>::kFields)>;
-  std::array<FieldInfo, count> infos{};
+  constexpr auto kFields = all_fields<M>();
+  constexpr std::size_t kCount = std::tuple_size_v<decltype(kFields)>;
+  constexpr std::size_t kBase = std::tuple_size_v<decltype(Layout<M>::kFields)>;
+  std::array<FieldInfo, kCount> infos{};
   std::size_t i = 0, offset = 0;
   const auto add = [&](const auto& f) {
     using F = std::decay_t<decltype(f)>;
     infos[i] = {f.name, field_type<FieldElement<F>>(), FieldShape<F>::kCount, std::uint8_t(offset),
-                i >= base};
+                i >= kBase};
     offset += sizeof(typename F::Type);
     ++i;
   };
-  std::apply([&](const auto&... f) { (add(f), ...); }, fields);
+  std::apply([&](const auto&... f) { (add(f), ...); }, kFields);
   return infos;
 }
 
