@@ -117,10 +117,6 @@ Matrix task(const Matrix& L, const Mount& mount) {
   return A;
 }
 
-Eigen::VectorXd solved(const Matrix& A, const Eigen::VectorXd& b) {
-  return Eigen::JacobiSVD<Matrix>(A, Eigen::ComputeThinU | Eigen::ComputeThinV).solve(b);
-}
-
 TEST(HelicopterLaw, LevelVariantsAreTheirFormulas) {
   test::Random random("formulas");
   const Mount mount = forward({0.3, -0.05, 0.1});
@@ -131,10 +127,10 @@ TEST(HelicopterLaw, LevelVariantsAreTheirFormulas) {
       input.goal_heading_rad = random.uniform(-3, 3);
       const Matrix A = task(interaction(law, input), mount);
       const Eigen::VectorXd e = error(input);
-      const Eigen::Vector4d u4 = -kGain * solved(A, e);
-      const Eigen::Vector3d u3 = -kGain * solved(A.leftCols(3), e);
+      const Eigen::Vector4d u4 = -kGain * test::solved(A, e);
+      const Eigen::Vector3d u3 = -kGain * test::solved(Matrix(A.leftCols(3)), e);
       const double r = -kGain * wrap_angle(input.heading_rad - input.goal_heading_rad);
-      const Eigen::Vector3d held = -solved(A.leftCols(3), kGain * e + A.col(3) * r);
+      const Eigen::Vector3d held = -test::solved(Matrix(A.leftCols(3)), kGain * e + A.col(3) * r);
       Vector6d expected = Vector6d::Zero();
       expected.head<3>() = u4.head<3>();
       expected[5] = u4[3];
@@ -153,7 +149,7 @@ TEST(HelicopterLaw, Drop6ThrowsRollAndPitchRatesAwayOnly) {
   test::Random random("drop6");
   const Mount mount = forward({0.3, 0, 0.1});
   const HelicopterLawInput input = tilted(random_view(random), {0.05, -0.1, 0}, mount);
-  const Vector6d v = -kGain * solved(interaction(input.camera.measured), error(input));
+  const Vector6d v = -kGain * test::solved(interaction(input.camera.measured), error(input));
   Vector6d body = (mount * CameraTwist::from_vector(v)).vector();
   EXPECT_GT(body.segment<2>(3).norm(), 1e-3);
   body.segment<2>(3).setZero();

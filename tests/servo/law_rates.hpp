@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <functional>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "servo/law_bench.hpp"
 #include "support/random.hpp"
@@ -11,48 +11,19 @@
 namespace kestrel::test {
 
 /// A pose after the camera has made a twist for a time.
-inline TargetPose after(const TargetPose& pose, const Vector6d& twist, double duration_s) {
-  return moved(pose.inverse(), CameraTwist::from_vector(twist), duration_s).inverse();
-}
+TargetPose after(const TargetPose& pose, const Vector6d& twist, double duration_s);
 
 /// Interaction matrix of a law's error by central differences of the error it reports. Rounding
 /// 1e-16 / h and third derivatives h^2 leave 1e-9 of the matrix's size or so.
-template <class InputAt>
-Eigen::MatrixXd error_rate(const TargetPose& pose, Law law, const InputAt& at) {
-  const double h = 1e-5;
-  const auto error = [&](const Vector6d& twist) {
-    return control_law(at(after(pose, twist, 1)), unit_options(law)).error;
-  };
-  Eigen::MatrixXd L(error(Vector6d::Zero()).size(), 6);
-  for (int k = 0; k < 6; ++k) {
-    L.col(k) = (error(h * Vector6d::Unit(k)) - error(-h * Vector6d::Unit(k))) / (2 * h);
-  }
-  return L;
-}
+Eigen::MatrixXd error_rate(const TargetPose& pose, Law law,
+                           const std::function<LawInput(const TargetPose&)>& at);
 
-inline Eigen::MatrixXd error_rate(const TargetPose& pose, Law law) {
-  return error_rate(pose, law, input_at);
-}
+Eigen::MatrixXd error_rate(const TargetPose& pose, Law law);
 
 /// A camera somewhere in front of the bench's target, turned by this much at most.
-inline TargetPose any_view(Random& random, double max_turn_rad, double max_tilt_rad) {
-  const Eigen::Vector3d at(random.uniform(-.2, .2), random.uniform(-.2, .2),
-                           random.uniform(.5, 1.5));
-  return {rotation_from_vector(random.rotation_vector(max_tilt_rad)) *
-              rotation_from_vector({0, 0, random.uniform(-max_turn_rad, max_turn_rad)}),
-          at};
-}
-
-inline Eigen::VectorXd singular_values_of(const Eigen::MatrixXd& L) {
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(L).singularValues();
-}
+TargetPose any_view(Random& random, double max_turn_rad, double max_tilt_rad);
 
 /// Distance of camera and target's centre, the largest on a flight, over that at its start, m.
-inline double retreat_on_flight(const TargetPose& start, Law law, int steps, double dt_s) {
-  double largest = 0;
-  fly(start, unit_options(law), steps, dt_s,
-      [&](const Moment& m) { largest = std::max(largest, m.pose.translation.norm()); });
-  return largest - std::max(start.translation.norm(), kBenchGoal.translation.norm());
-}
+double retreat_on_flight(const TargetPose& start, Law law, int steps, double dt_s);
 
 }  // namespace kestrel::test

@@ -118,7 +118,7 @@ TEST(MomentsLaw, MakesItsErrorDecayAtTheGain) {
     ASSERT_TRUE(answer.twist);
     const Eigen::MatrixXd L = test::error_rate(pose, Law::Moments, at);
     EXPECT_LT((L * answer.twist->vector() + answer.error).norm(), 1e-7);
-    EXPECT_LT((test::singular_values_of(L) - answer.singular_values).norm(), 1e-6);
+    EXPECT_LT((test::singular_values(L) - answer.singular_values).norm(), 1e-6);
     EXPECT_LT(answer.error.segment<2>(3).norm(), 1e-12);  // no tilt in sight
   }
 }

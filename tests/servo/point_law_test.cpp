@@ -13,6 +13,7 @@ namespace kestrel {
 namespace {
 
 using test::MatrixXr;
+using test::solved;
 using test::VectorXr;
 
 constexpr Law kPointLaws[] = {Law::Cur,         Law::CurZdes, Law::CurZarea, Law::CurZhomog,
@@ -172,8 +173,6 @@ struct Case {
   MatrixXr B;
 };
 
-VectorXr solved(const MatrixXr& J, const VectorXr& e) { return J.colPivHouseholderQr().solve(e); }
-
 MatrixXr oracle_move(const Displacement& step, Law law) {
   const test::Matrix3r R = step.rotation.cast<test::Real>();
   MatrixXr V = MatrixXr::Zero(6, 6);
@@ -240,7 +239,7 @@ VectorXr oracle(const Case& c, Law law, const LawOptions& options) {
       return solved(damped, now.transpose() * e);
     }
     case Law::Transpose: {
-      const VectorXr values = Eigen::JacobiSVD<MatrixXr>(now).singularValues();
+      const VectorXr values = test::singular_values(now);
       return now.transpose() * e / (values[0] * values[0]);
     }
     case Law::TransposeRaw:
@@ -317,10 +316,8 @@ TEST(PointLaw, LeavesAloneWhatItHardlySees) {
   options.rank_tolerance = 0.05;  // between .028262 / 3.354857 and .377124 / 3.354857
   const LawAnswer answer = control_law(input, options);
   EXPECT_EQ(answer.rank, 4);
-  Eigen::MatrixXd L = test::oracle_interaction(input.desired).cast<double>();
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(L, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(0.05);
-  EXPECT_LT((answer.twist->vector() + svd.solve(answer.error)).norm(), 1e-13);
+  const Eigen::MatrixXd L = test::oracle_interaction(input.desired).cast<double>();
+  EXPECT_LT((answer.twist->vector() + test::solved(L, answer.error, 0.05)).norm(), 1e-13);
   options.solver = LawSolver::Visp;
   EXPECT_LT((answer.twist->vector() - control_law(input, options).twist->vector()).norm(), 1e-13);
 }

@@ -29,7 +29,7 @@ TEST(PoseLaws, MakeTheirErrorDecayAtTheGain) {
       ASSERT_TRUE(answer.twist) << name(law);
       const Eigen::MatrixXd L = test::error_rate(pose, law);
       EXPECT_LT((L * answer.twist->vector() + answer.error).norm(), 1e-8) << name(law);
-      EXPECT_LT((test::singular_values_of(L) - answer.singular_values).norm(), 1e-7) << name(law);
+      EXPECT_LT((test::singular_values(L) - answer.singular_values).norm(), 1e-7) << name(law);
       EXPECT_EQ(answer.rank, 6);
       EXPECT_NEAR(answer.condition, answer.singular_values[0] / answer.singular_values[5], 1e-12);
     }
@@ -117,7 +117,7 @@ TEST(PoseLaws, InABasisTheNearestTwist) {
     EXPECT_LT((input.basis.transpose() * left).norm(), 1e-13) << name(law);
     const Eigen::MatrixXd both =
         (Eigen::MatrixXd(6, 5) << input.basis, answer.twist->vector()).finished();
-    EXPECT_LT(test::singular_values_of(both)[4], 1e-13) << name(law);
+    EXPECT_LT(test::singular_values(both)[4], 1e-13) << name(law);
   }
 }
 
