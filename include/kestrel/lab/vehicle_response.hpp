@@ -23,7 +23,6 @@ struct VehicleResponse {
   /// By axis: forward, right, down, yaw; empty for an axis that was hardly used, or that cannot be
   /// told from the others (standard error above 0.3).
   std::array<std::optional<AxisResponse>, 4> axes;
-  double latency_s = 0;  // from a command to its motion in the image, with which it fits best
   double explained = 0;  // share of the image motion's variance, 0 to 1
   int pairs = 0;         // of frames, used
 };
