@@ -14,10 +14,6 @@
 namespace kestrel {
 namespace {
 
-/// Views under motion blur that are aligned in one frame: of those 30 degrees or a factor of 1.5
-/// apart four are next to each other, from two starts.
-constexpr std::size_t kTriedBlurs = 8;
-
 /// The pairs of keypoints that led to a place.
 std::vector<PixelPair> pairs_of(const Detection& seen, int hypothesis) {
   std::vector<PixelPair> pairs;
@@ -59,6 +55,7 @@ struct TargetSearch::Parts {
                    const std::optional<Expectation>& expected, Sighting& sighting);
   void follow_blurred(const Homography& around, const Homography& found,
                       const std::optional<Expectation>& expected, Sighting& sighting);
+  void refine_blurred(const std::optional<Expectation>& expected, Sighting& sighting);
   void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
   Sighting detect(const Frame& frame, const PixelBox& window,
                   const std::optional<Expectation>& expected);
@@ -76,7 +73,10 @@ Sighting TargetSearch::Parts::follow(const Frame& frame, const Homography& last,
   const Homography& start = moves ? ahead : last;
   result.at = aligner.align(pyramid, start);
   if (verdict.is_doubtful(result.at, expected)) look_around(frame, start, expected, result);
-  if (result.at && verdict.is_possible(*result.at, expected)) result.miss = Miss::None;
+  if (result.at && verdict.is_possible(*result.at, expected)) {
+    result.miss = Miss::None;
+    refine_blurred(expected, result);
+  }
   settle(frame, expected, result);
   return result;
 }
@@ -103,19 +103,36 @@ void TargetSearch::Parts::look_around(const Frame& frame, const Homography& star
   }
 }
 
-/// Of all motion blurs those that are likeliest at the places are aligned; the best view that is
+/// Of all blurs those that are likeliest at the places are aligned; the best view that is
 /// not weak itself is taken.
 void TargetSearch::Parts::follow_blurred(const Homography& around, const Homography& found,
                                          const std::optional<Expectation>& expected,
                                          Sighting& sighting) {
   if (!blurred) return;
-  for (const auto& guess : blurred->likeliest(pyramid, {around, found}, kTriedBlurs)) {
+  for (const auto& guess : blurred->likeliest(pyramid, {around, found})) {
     const auto at = blurred->align(pyramid, guess);
-    if (verdict.is_doubtful(at, expected) || (sighting.at && !is_better(*at, *sighting.at))) {
-      continue;
-    }
+    if (verdict.is_doubtful(at, expected)) continue;
+    if (sighting.at && !is_better(*at, *sighting.at)) continue;
     sighting.at = at;
     sighting.stage = TrackStage::Searched;
+  }
+}
+
+/// A place found that is not sharp is aligned again as the blurs that are likeliest there show the
+/// template: a block of 8 px holds only a part of a blurred edge, and the sharp one laid over it is
+/// led astray. What is taken shows more at that same place, and leaves less of it open.
+void TargetSearch::Parts::refine_blurred(const std::optional<Expectation>& expected,
+                                         Sighting& sighting) {
+  if (!blurred || verdict.is_sharp(*sighting.at)) return;
+  const Homography found = sighting.at->image_from_template;
+  const double sharp = aligner.detail(pyramid, found);
+  for (const auto& guess : blurred->likeliest(pyramid, {found})) {
+    if (guess.likeness <= sharp) break;  // the others are less likely still
+    const auto at = blurred->align(pyramid, guess);
+    if (verdict.is_doubtful(at, expected) || !is_same(at->image_from_template, found, model))
+      continue;
+    const bool tells_more = at->corner_covariance.trace() < sighting.at->corner_covariance.trace();
+    if (tells_more && is_better(*at, *sighting.at)) sighting.at = at;
   }
 }
 

@@ -14,7 +14,7 @@ namespace kestrel {
 /// The template as blur shows it, view by view. Allocates nothing after it is made.
 class BlurredViews {
  public:
-  /// Of model.blurred(), for up to two starts.
+  /// Of model.blurred(), for up to two starts at a time.
   BlurredViews(const Template& model, const AlignOptions& options);
 
   /// A view, and a place to align it from.
@@ -26,10 +26,10 @@ class BlurredViews {
 
   bool empty() const { return views_.empty(); }
 
-  /// Of all views at each of the starts the likeliest, at most so many, best first. Valid until the
-  /// next call.
+  /// Of all views at each of the starts the likeliest, at most so many for each start, best first.
+  /// Valid until the next call.
   const std::vector<Guess>& likeliest(const ImagePyramid& image,
-                                      std::initializer_list<Homography> starts, std::size_t most);
+                                      std::initializer_list<Homography> starts);
 
   std::optional<Alignment> align(const ImagePyramid& image, const Guess& guess) {
     return views_[guess.view].align(image, guess.start);

@@ -37,6 +37,9 @@ class Verdict {
   /// good.
   bool may_be_another(const Alignment& place) const;
 
+  /// True where the image shows as much of the template as a sharp one would.
+  bool is_sharp(const Alignment& place) const;
+
   /// True for a doubtful place that shows nothing of the template sharp.
   bool may_be_blurred(const std::optional<Alignment>& place,
                       const std::optional<Expectation>& expected) const;
