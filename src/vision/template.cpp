@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "kestrel/vision/motion_blur.hpp"
+#include "kestrel/vision/blur.hpp"
 #include "kestrel/vision/window.hpp"
 
 namespace kestrel {

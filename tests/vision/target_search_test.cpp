@@ -6,8 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
-#include "kestrel/vision/motion_blur.hpp"
+#include "kestrel/vision/blur.hpp"
 
 #include "support/planted_target.hpp"
 
@@ -100,12 +101,52 @@ TEST(TargetSearch, FollowsWhatMotionBlurs) {
   // aligned with the sharp template alone the corners are 5 px off.
   const Homography truth = placed_at({205, 148}, {1.2, 0.4, 0.2, 1});
   const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
-  const MotionBlur motion{22, 2.6};
+  const Blur motion{22, 2.6};
   const Homography off = shifted(truth, 4, -3);
   const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, {});
   ASSERT_TRUE(seen.is_accepted());
   EXPECT_FALSE(search().is_weak(*seen.at));
   EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
+}
+
+/// Print on a box: few edges, and strong ones.
+cv::Mat print() {
+  test::Random random("print");
+  cv::Mat image(200, 260, CV_8UC1, cv::Scalar(90));
+  for (int i = 0; i < 14; ++i) {
+    const cv::Point from(random.integer(20, 190), random.integer(20, 140));
+    const cv::Size size(random.integer(12, 60), random.integer(10, 40));
+    cv::rectangle(image, cv::Rect(from, size), cv::Scalar(random.integer(20, 235)), cv::FILLED);
+  }
+  return image;
+}
+
+/// A bell as wide as the learned discs are not: between two of them. The sharp template alone sees
+/// of an edge near a block's side only a part, wherever it is aligned from.
+TEST(TargetSearch, HoldsWhatIsOutOfFocusAgainstItsLike) {
+  const cv::Mat scene = print();
+  const PixelBox box{30, 30, 160, 120};
+  const Template learned(scene, box, {});
+  TargetSearch follower(learned, {});
+  cv::Mat image;
+  cv::GaussianBlur(scene, image, {}, 2.6);
+  const Homography truth = test::translation(30, 30);
+  const Homography start = shifted(truth, 2, -1);
+  Aligner sharp(learned.blocks(), {});
+  ImagePyramid pyramid;
+  pyramid.look(image, {0, 0, 260, 200}, sharp.levels(), Simd::Auto);
+  const auto alone = sharp.align(pyramid, start);
+  const Sighting seen = follower.follow(frame_of(image), start, {});
+  ASSERT_TRUE(alone && seen.is_accepted());
+  const auto off_px = [&](const Homography& H) {
+    double sum = 0;
+    const auto at = outline(H, 160, 120);
+    const auto to = outline(truth, 160, 120);
+    for (std::size_t i = 0; i < 4; ++i) sum += distance(at[i], to[i]) / 4;
+    return sum;
+  };
+  EXPECT_LT(3 * off_px(seen.at->image_from_template), off_px(alone->image_from_template));
+  EXPECT_LT(seen.at->corner_covariance.trace(), alone->corner_covariance.trace() / 4);
 }
 
 /// A texture twice side by side, on the ground.

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "kestrel/vision/align.hpp"
-#include "kestrel/vision/detector.hpp"
 #include "kestrel/vision/frame.hpp"
-#include "kestrel/vision/image_pyramid.hpp"
-#include "kestrel/vision/self_likeness.hpp"
 #include "kestrel/vision/template.hpp"
 #include "kestrel/vision/track.hpp"
 #include "kestrel/vision/track_options.hpp"
@@ -41,6 +37,9 @@ class TargetSearch {
  public:
   /// The model must have been learned with these options and outlive the search.
   TargetSearch(const Template& model, const TrackOptions& options);
+  ~TargetSearch();
+  TargetSearch(TargetSearch&&) noexcept;
+  TargetSearch& operator=(TargetSearch&&) noexcept;
 
   /// The template near where it was: aligned from the last place or from the expected one,
   /// whichever shows more of it; when that is in doubt, from the likeliest place around, and with
@@ -57,43 +56,8 @@ class TargetSearch {
   bool is_weak(const Alignment& place) const;
 
  private:
-  /// Where the pixels led from one of the detector's hypotheses.
-  struct Place {
-    Alignment at;
-    int hypothesis = 0;
-  };
-  struct Choice {
-    std::size_t place = 0;
-    Miss miss = Miss::None;
-  };
-  void look(const Frame& frame, const PixelBox& window);
-  bool is_told(const Homography& place, const std::optional<Expectation>& expected) const;
-  bool is_possible(const Alignment& place, const std::optional<Expectation>& expected) const;
-  Choice choose(const std::vector<Place>& places, const std::optional<Expectation>& expected) const;
-
-  /// A place to align a blurred view from.
-  struct Guess {
-    std::size_t blur = 0;
-    Homography start;
-    double likeness = 0;
-  };
-  void follow_blurred(const std::array<Homography, 2>& starts,
-                      const std::optional<Expectation>& expected, Sighting& sighting);
-  bool is_doubtful(const std::optional<Alignment>& place,
-                   const std::optional<Expectation>& expected) const;
-  bool may_be_blurred(const std::optional<Alignment>& place,
-                      const std::optional<Expectation>& expected) const;
-  void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
-
-  const Template& model_;
-  TrackOptions options_;
-  SelfLikeness self_;
-  AgreementOptions beyond_;  // what is asked where the motion does not tell
-  Aligner aligner_;
-  std::vector<Aligner> blurred_;  // of model_.blurred(); none for a template that is like itself
-  std::vector<Guess> guesses_;
-  Detector detector_;
-  ImagePyramid pyramid_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace kestrel

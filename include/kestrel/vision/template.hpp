@@ -39,8 +39,7 @@ class Template {
   /// Keypoints of nine views and the blocks of pixels; only when learned for Detect or Hybrid.
   const LearnedFeatures& features() const { return features_; }
   const TemplateBlocks& blocks() const { return blocks_; }
-  /// The blocks as a moving camera blurs them, in the order of motion_blurs(); only when learned
-  /// for Hybrid.
+  /// The blocks under blur, in the order of blurs(); only when learned for Hybrid.
   const std::vector<TemplateBlocks>& blurred() const { return blurred_; }
 
  private:

@@ -1,4 +1,4 @@
-#include "kestrel/vision/motion_blur.hpp"
+#include "kestrel/vision/blur.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr int kMostLengths = 4;
 constexpr double kMostOfSide = 0.25;
 constexpr double kPi = 3.141592653589793;
 
-/// Samples of a line for each pixel of its length: more changes nothing of eight bits.
+/// Samples for each pixel of a length: more changes nothing of eight bits.
 constexpr int kSamplesPerPx = 8;
 
 void add(cv::Mat& kernel, double u, double v, double weight) {
@@ -32,18 +32,45 @@ void add(cv::Mat& kernel, double u, double v, double weight) {
 }
 
 /// A line through the middle of a square of 2 radius + 1 px.
-cv::Mat line_kernel(const MotionBlur& motion, int radius) {
+cv::Mat line_kernel(const Blur& blur, int radius) {
   cv::Mat kernel(2 * radius + 1, 2 * radius + 1, CV_32F, cv::Scalar(0));
-  const sift::Direction along = sift::direction(motion.direction_rad);
-  const int samples = int(std::ceil(motion.length_px * kSamplesPerPx));
+  const sift::Direction along = sift::direction(blur.direction_rad);
+  const int samples = int(std::ceil(blur.length_px * kSamplesPerPx));
   for (int i = 0; i < samples; ++i) {
-    const double at = ((i + 0.5) / samples - 0.5) * motion.length_px;
+    const double at = ((i + 0.5) / samples - 0.5) * blur.length_px;
     add(kernel, radius + at * along.cosine, radius + at * along.sine, 1.0 / samples);
   }
   return kernel;
 }
 
-/// Of a kernel what is not 0: a line is a tenth of its square.
+/// A disc in the middle of the square: of each pixel the share that the disc covers.
+cv::Mat disc_kernel(const Blur& blur, int radius) {
+  cv::Mat kernel(2 * radius + 1, 2 * radius + 1, CV_32F, cv::Scalar(0));
+  const double disc2_px2 = blur.length_px * blur.length_px / 3;
+  const int samples = kernel.rows * kSamplesPerPx;
+  int inside = 0;
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const double u = (i + 0.5) / kSamplesPerPx - 0.5 - radius;
+      const double v = (j + 0.5) / kSamplesPerPx - 0.5 - radius;
+      if (u * u + v * v > disc2_px2) continue;
+      kernel.at<float>(j / kSamplesPerPx, i / kSamplesPerPx) += 1;
+      ++inside;
+    }
+  }
+  kernel /= inside;
+  return kernel;
+}
+
+/// What a point becomes, in the middle of a square.
+cv::Mat kernel(const Blur& blur) {
+  // A line reaches half its length, a disc 1 / sqrt(3) of it; sharing among pixels takes one more.
+  const bool is_line = blur.shape == BlurShape::Line;
+  const int radius = int(std::ceil(blur.length_px * (is_line ? 0.5 : std::sqrt(1.0 / 3)))) + 1;
+  return is_line ? line_kernel(blur, radius) : disc_kernel(blur, radius);
+}
+
+/// Of a kernel what is not 0: a line is a tenth of its square, a disc three quarters.
 struct Tap {
   int x = 0;
   int y = 0;
@@ -76,26 +103,29 @@ cv::Mat with_border(const cv::Mat& gray, const PixelBox& box, int radius) {
 
 }  // namespace
 
-std::vector<MotionBlur> motion_blurs(double width_px, double height_px) {
+std::vector<Blur> blurs(double width_px, double height_px) {
   const double longest = kMostOfSide * std::min(width_px, height_px);
-  std::vector<MotionBlur> result;
+  std::vector<Blur> result;
   double length_px = kShortest_px;
   for (int i = 0; i < kMostLengths && length_px <= longest; ++i) {
-    for (int k = 0; k < kDirections; ++k) result.push_back({length_px, k * kPi / kDirections});
+    for (int k = 0; k < kDirections; ++k) {
+      result.push_back({length_px, k * kPi / kDirections});
+    }
+    result.push_back({length_px, 0, BlurShape::Disc});
     length_px *= kNextLength;
   }
   return result;
 }
 
-cv::Mat blurred(const cv::Mat& gray, const PixelBox& box, const MotionBlur& motion) {
-  const int radius = int(std::ceil(motion.length_px / 2)) + 1;
-  const std::vector<Tap> line = taps(line_kernel(motion, radius));
-  const cv::Mat around = with_border(gray, box, radius);
+cv::Mat blurred(const cv::Mat& gray, const PixelBox& box, const Blur& blur) {
+  const cv::Mat square = kernel(blur);
+  const std::vector<Tap> spread = taps(square);
+  const cv::Mat around = with_border(gray, box, square.rows / 2);
   cv::Mat result(int(box.height), int(box.width), CV_8UC1);
   std::vector<float> sum(std::size_t(result.cols));
   for (int y = 0; y < result.rows; ++y) {
     std::fill(sum.begin(), sum.end(), 0.5F);  // to round
-    for (const Tap& tap : line) {
+    for (const Tap& tap : spread) {
       const float* from = around.ptr<float>(y + tap.y) + tap.x;
       for (std::size_t x = 0; x < sum.size(); ++x) sum[x] += tap.weight * from[x];
     }
@@ -111,8 +141,8 @@ std::vector<TemplateBlocks> blurred_blocks(const cv::Mat& gray, const PixelBox& 
   fewer.max_blocks = std::max(fewer.max_blocks / 2, 4);
   fewer.max_coarse_blocks = std::max(fewer.max_coarse_blocks / 2, 4);
   std::vector<TemplateBlocks> result;
-  for (const MotionBlur& motion : motion_blurs(box.width, box.height)) {
-    result.push_back(template_blocks(blurred(gray, box, motion), fewer, sharp));
+  for (const Blur& blur : blurs(box.width, box.height)) {
+    result.push_back(template_blocks(blurred(gray, box, blur), fewer, sharp));
   }
   return result;
 }
