@@ -76,6 +76,8 @@ int V4l2StandIn::give(v4l2_buffer& it) {
   queued_.erase(queued_.begin());
   auto& bytes = memory_[it.index];
   std::fill(bytes.begin(), bytes.end(), (unsigned char)(10 * count_));
+  if (!pixels.empty() && pixels.total() == bytes.size())
+    std::memcpy(bytes.data(), pixels.data, bytes.size());
   it.bytesused = __u32(bytes.size());
   it.sequence = number_++;
   it.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;

@@ -45,6 +45,7 @@ class V4l2StandIn : public DeviceCalls {
   std::vector<__u32> lost;     // counts of pictures that are passed over
   double stamp_age_s = 0.005;  // how long before it can be had a picture was captured
   int period_ms = 0;           // between pictures; 0: whenever one is waited for
+  cv::Mat pixels;              // of every picture, when it is as large; empty: all of 10 k
   std::map<__u32, int> controls;
   double rate_hz = 0;  // as it was set
   int open_descriptors = 0;
