@@ -33,8 +33,8 @@ std::string end_of(FrameSource& source) {
 }
 
 TEST(NetworkCamera, GivesNewFramesWithGrowingStamps) {
-  const MjpegServer server(200, MjpegServer::Then::End);
-  const auto source = open_live(server.url(), quick(5, 0.6));
+  const MjpegServer server(60, MjpegServer::Then::End);
+  const auto source = open_live(server.url(), quick(5, 0.3));
   std::int64_t index = -1;
   double stamp_s = -1;
   int images = 0;
@@ -70,8 +70,8 @@ TEST(NetworkCamera, TheIndexIsThePicturesNumber) {
 }
 
 TEST(NetworkCamera, SaysThatItStalls) {
-  const MjpegServer server(80, MjpegServer::Then::Stall);
-  const auto source = open_live(server.url(), quick(5, 0.5));
+  const MjpegServer server(40, MjpegServer::Then::Stall);
+  const auto source = open_live(server.url(), quick(5, 0.3));
   EXPECT_THAT(end_of(*source), HasSubstr("no picture for"));
   EXPECT_THAT(source->skipped().at(0), HasSubstr("no picture for 0.2 s"));
 }
