@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kestrel/geometry/pixel.hpp"
+#include "kestrel/io/live_options.hpp"
 #include "kestrel/link/autopilot_profile.hpp"
 #include "kestrel/link/axis_response.hpp"
 #include "kestrel/vision/track_options.hpp"
@@ -91,6 +92,24 @@ struct JogArguments {
   bool json = false;
 };
 
+/// Lists what is connected.
+struct CamerasArguments {
+  bool json = false;
+};
+
+/// Keeps what a source gives.
+struct RecordArguments {
+  std::string source;            // as INPUT of track
+  std::filesystem::path output;  // a new folder, or a file .mp4
+  CaptureSettings capture;
+  std::optional<PixelBox> roi;  // of the description
+  std::optional<double> duration_s;
+  std::optional<std::int64_t> frames;
+  std::size_t queue = 100;  // pictures that wait for the disk
+  double give_up_s = 60;
+  bool allow_drops = false;
+};
+
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
 };
@@ -104,7 +123,7 @@ using Arguments =
     std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
                  CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
                  LawsArguments, ExplainArguments, SwitchArguments, KeyArguments, JogArguments,
-                 CalibrateArguments>;
+                 CalibrateArguments, CamerasArguments, RecordArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

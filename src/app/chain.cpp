@@ -36,7 +36,9 @@ class Pacer {
 };
 
 /// A frame of the run is worse the less is known: lost frames first, then large reprojection.
-double badness(const Step& step) {
+/// One without an image shows nothing.
+double badness(const Frame& frame, const Step& step) {
+  if (!has_image(frame)) return 0;
   if (!step.track.found()) return 1e6;
   return step.pose ? step.pose->reprojection_px : 1e3;
 }
@@ -60,14 +62,15 @@ class Fold {
     const double start_s = monotonic_s();
     if (!frame_.attitude && chain_.attitude) frame_.attitude = chain_.attitude(frame_.stamp_s);
     Step now = step(chain_.tracker, frame_, state_, chain_.task);
-    chain_.sink.send(now.decision.command, frame_.stamp_s);
-    const double chain_ms = (monotonic_s() - start_s) * 1e3;
+    chain_.sink.send(now.decision.command, command_stamp_s(now.decision.command));
+    sent_s_ = monotonic_s();
+    const double chain_ms = (sent_s_ - start_s) * 1e3;
     LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
     const cv::Mat picture = picture_of(now);
     const bool is_open =
-        chain_.recorder.record(row, picture, badness(now), {source_ms_, chain_ms, 0});
+        chain_.recorder.record(row, picture, badness(frame_, now), {source_ms_, chain_ms, 0});
     count(now);
     progress_.step(end_.frames, name(now.decision.state));
     state_ = now.next;
@@ -103,8 +106,17 @@ class Fold {
   }
 
  private:
+  /// While the source is silent, zeros are decided anew; a command that fades is as old as the last
+  /// picture, and no sink may take it for younger.
+  double command_stamp_s(const VelocityCommand& command) const {
+    const bool is_old = !has_image(frame_) && !command.vector().isZero(0);
+    return is_old ? seen_stamp_s_ : frame_.stamp_s;
+  }
+
   cv::Mat picture_of(const Step& now) const {
-    cv::Mat drawn = overlay(frame_, chain_.tracker.model(), now.track, drawn_);
+    Frame shown = frame_;
+    if (shown.gray.empty()) shown.gray = cv::Mat::zeros(size_, CV_8UC1);
+    cv::Mat drawn = overlay(shown, chain_.tracker.model(), now.track, drawn_);
     if (!chain_.beside) return drawn;
     cv::Mat both;
     cv::hconcat(chain_.beside(frame_, drawn.size()), drawn, both);
@@ -113,6 +125,14 @@ class Fold {
 
   void count(const Step& now) {
     ++end_.frames;
+    if (!has_image(frame_)) {
+      ++end_.blind;
+      return;
+    }
+    seen_stamp_s_ = frame_.stamp_s;
+    size_ = frame_.gray.size();
+    if (chain_.stamp_origin_s)
+      end_.latency_ms.push_back(1e3 * (sent_s_ - *chain_.stamp_origin_s - frame_.stamp_s));
     end_.found += now.track.found() ? 1 : 0;
     end_.servoed += now.decision.servo ? 1 : 0;
   }
@@ -126,6 +146,9 @@ class Fold {
   LoopState state_;
   ChainEnd end_;
   double source_ms_ = 0;
+  double sent_s_ = 0;        // when the last command had gone
+  double seen_stamp_s_ = 0;  // of the last frame with an image
+  cv::Size size_{320, 240};  // of its image
   std::size_t told_ = 0;
 };
 
@@ -159,6 +182,12 @@ void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink) {
   summary.add("frames skipped", std::int64_t(end.skipped.size()));
   summary.add("found", double(end.found) * share, "%");
   summary.add("servoed", double(end.servoed) * share, "%");
+  if (end.blind > 0) summary.add("without a picture", end.blind);
+  if (!end.latency_ms.empty()) {
+    summary.add("capture to command, median", quantile(end.latency_ms, 0.5), "ms");
+    summary.add("capture to command, 95 %", quantile(end.latency_ms, 0.95), "ms");
+    summary.add("capture to command, maximum", quantile(end.latency_ms, 1), "ms");
+  }
   summary.add("commands not sent", std::int64_t(sink.failures()));
   summary.add("ended by", end.reason);
 }

@@ -25,6 +25,8 @@ struct Chain {
   std::function<std::optional<Attitude>(double stamp_s)> attitude{};
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
+  /// Of a live source: what monotonic_s() was when the stamps were zero.
+  std::optional<double> stamp_origin_s{};
 };
 
 /// How a run ended.
@@ -35,6 +37,8 @@ struct ChainEnd {
   std::int64_t found = 0;
   std::int64_t servoed = 0;  // frames in which the law had an answer
   std::vector<std::string> skipped;
+  std::vector<double> latency_ms;  // of a live source: from the capture of a frame to its command
+  std::int64_t blind = 0;          // frames without an image: the source was silent
   Step last;
 };
 

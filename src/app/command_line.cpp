@@ -41,7 +41,7 @@ void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
   auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
   verb->add_option("INPUT,--input", a->input,
                    "sequences/NAME.yaml, a pattern like I%04d.png, a folder, a video file, "
-                   "camera:N, dc1394:, http://...")
+                   "camera:N, dc1394:, rtsp://..., rtp:..., udp://..., http://...")
       ->required();
   verb->add_option_function<std::string>(
       "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
@@ -73,7 +73,7 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   verb->add_option("TASK", a->task, "Task file (tasks/*.yaml)")->required();
   verb->add_option("--source,--input,--device", a->source,
                    "Frames, instead of the task's: sequence:FILE, images:PATTERN, video:FILE, "
-                   "camera:N, dc1394:");
+                   "camera:N, dc1394:GUID, rtsp://..., rtp:..., udp://..., http://...");
   verb->add_option("--sink", a->sink,
                    "Where commands go, instead of the task's: autopilot:udp://HOST:PORT, "
                    "udp://HOST:PORT or none");
@@ -164,6 +164,47 @@ void add_check(CLI::App& app, const std::shared_ptr<CheckArguments>& a) {
   verb->add_option("FILES", a->files, "Files to check")->required();
 }
 
+void add_cameras(CLI::App& app, const std::shared_ptr<CamerasArguments>& a) {
+  auto* verb =
+      app.add_subcommand("cameras", "List the V4L2 and FireWire cameras and what each can send");
+  verb->add_flag("--json", a->json, "Print JSON");
+}
+
+void add_record(CLI::App& app, const std::shared_ptr<RecordArguments>& a) {
+  auto* verb = app.add_subcommand(
+      "record", "Keep every picture of a source, with its time: a sequence folder or a video");
+  verb->add_option("SOURCE", a->source,
+                   "camera:N, dc1394:GUID, rtsp://..., rtp:..., udp://..., http://..., or what "
+                   "track takes")
+      ->required();
+  verb->add_option("--output", a->output,
+                   "A new folder (PNG pictures, stamps.csv, sequence.yaml) or a file .mp4")
+      ->required();
+  verb->add_option("--duration", a->duration_s, "Stop after this long, s (default: on Ctrl-C)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--frames", a->frames, "Stop after this many pictures (default: on Ctrl-C)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--format", a->capture.format,
+                   "Format of the camera, as 'kestrel cameras' names it (default: the best)");
+  verb->add_option_function<std::vector<int>>(
+          "--size", [a](const std::vector<int>& s) { a->capture.size = cv::Size(s[0], s[1]); },
+          "Width and height, px (default: 640 480 or what is nearest)")
+      ->expected(2);
+  verb->add_option("--rate", a->capture.rate_hz, "Pictures per second, at least (default: most)");
+  verb->add_option("--exposure", a->capture.exposure_s, "Shutter time, s (default: automatic)");
+  verb->add_option("--gain", a->capture.gain, "Gain, the camera's own unit (default: automatic)");
+  verb->add_option_function<std::string>(
+      "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
+      "Template rectangle x,y,w,h of the description, px (default: the middle)");
+  verb->add_option("--queue", a->queue, "Pictures that may wait for the disk (default 100)")
+      ->check(CLI::Range(1, 10000));
+  verb->add_option("--give-up", a->give_up_s,
+                   "End after this long without a picture, s (default 60)")
+      ->check(CLI::PositiveNumber);
+  verb->add_flag("--allow-drops", a->allow_drops,
+                 "Missing pictures are no failure (default: exit 1)");
+}
+
 void add_demo(CLI::App& app, const std::shared_ptr<DemoArguments>& a) {
   auto* verb = app.add_subcommand(
       "demo", "The main job: track a recorded sequence, send the commands, fly the helicopter");
@@ -211,6 +252,10 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_jog(app, jog);
   const auto calibrate = std::make_shared<CalibrateArguments>();
   add_calibrate(app, calibrate);
+  const auto cameras = std::make_shared<CamerasArguments>();
+  add_cameras(app, cameras);
+  const auto record = std::make_shared<RecordArguments>();
+  add_record(app, record);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -233,6 +278,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("key")) return Arguments(*key);
   if (app.got_subcommand("jog")) return Arguments(*jog);
   if (app.got_subcommand("calibrate")) return Arguments(*calibrate);
+  if (app.got_subcommand("cameras")) return Arguments(*cameras);
+  if (app.got_subcommand("record")) return Arguments(*record);
   return Arguments(*demo);
 }
 

@@ -38,6 +38,9 @@ struct StageTimes {
   double record_ms = 0;  // log, overlay, video
 };
 
+/// The value below which a share of the values lies; not a number of none.
+double quantile(std::vector<double> values, double share);
+
 /// The run folder while it grows: run.csv and timing.csv row by row, the video frame by frame, so
 /// that an interrupted run keeps all it has done; summary and report at the end.
 class RunRecorder {

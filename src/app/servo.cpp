@@ -13,13 +13,14 @@
 namespace kestrel::app {
 namespace {
 
-Summary summarise(const ChainEnd& end, const Sink& sink) {
+Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& source) {
   Summary summary;
   summary.begin_section("chain");
   add_chain(summary, end, *sink.commands);
   if (end.last.decision.servo) {
     summary.add("final feature error", end.last.decision.servo->error.norm());
   }
+  add_source(summary, source);
   if (sink.report) sink.report(summary);
   return summary;
 }
@@ -43,10 +44,17 @@ RunResult servo(const ServoArguments& a) {
   Tracker tracker = learn_template(experiment, first);
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
-  const ChainEnd end = run_chain(
-      {*source, *sink.commands, tracker, experiment.task, recorder, a.pace, sink.attitude}, first,
-      watch);
-  RunResult result{recorder.folder(), summarise(end, sink), end.broken ? 1 : 0};
+  const ChainEnd end = run_chain({*source,
+                                  *sink.commands,
+                                  tracker,
+                                  experiment.task,
+                                  recorder,
+                                  a.pace,
+                                  sink.attitude,
+                                  {},
+                                  stamp_origin_s(*source)},
+                                 first, watch);
+  RunResult result{recorder.folder(), summarise(end, sink, *source), end.broken ? 1 : 0};
   recorder.add_times(result.summary);
   finish_run(recorder, tracker.model(), experiment.task, end, result.summary,
              "Servo run: " + a.task.stem().string(), servo_sections);

@@ -11,16 +11,11 @@
 #include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence.hpp"
 #include "kestrel/io/sequence_file.hpp"
+#include "kestrel/io/source_address.hpp"
 #include "kestrel/io/text_file.hpp"
 
 namespace kestrel::app {
 namespace {
-
-/// What follows "kind:" in a source, if it is of that kind.
-std::optional<std::string> after(const std::string& source, const std::string& kind) {
-  if (source.rfind(kind, 0) != 0) return std::nullopt;
-  return source.substr(kind.size());
-}
 
 /// The text of an optional file; empty when none was given.
 std::string text_of(const std::filesystem::path& file) {
@@ -66,19 +61,23 @@ void print_result(const RunResult& result) {
   fmt::print("{}\nrun folder: {}\n", text_table(result.summary), result.folder.string());
 }
 
-void override_source(Experiment& experiment, const std::string& source) {
-  experiment.source = source;
+void override_source(Experiment& experiment, const std::string& text) {
+  SourceAddress source;
+  try {
+    source = parse_source(text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--source ") + error.what());
+  }
+  experiment.source = text;
   experiment.sequence.reset();
-  if (const auto file = after(source, "sequence:")) {
-    const SequenceDescription description = load_sequence(*file);
+  if (source.kind == SourceKind::Sequence) {
+    const SequenceDescription description = load_sequence(source.place);
     experiment.sequence = description.sequence;
     experiment.template_px = description.template_px;
   }
-  for (const char* kind : {"images:", "video:"}) {
-    const auto input = after(source, kind);
-    if (!input) continue;
+  if (source.kind == SourceKind::Images || source.kind == SourceKind::Video) {
     experiment.sequence = SequenceOptions{};
-    experiment.sequence->input = *input;
+    experiment.sequence->input = source.place;
   }
 }
 
@@ -88,7 +87,20 @@ std::unique_ptr<FrameSource> open_source(const Experiment& experiment) {
     throw FileError(experiment.file, 0, "source",
                     "is the simulation; fly it with 'kestrel simulate', or give --source");
   }
-  return open_live(experiment.source);
+  return open_live(experiment.source, experiment.live);
+}
+
+void add_source(Summary& summary, const FrameSource& source) {
+  const auto status = live_status(source);
+  if (!status) return;
+  summary.begin_section("camera");
+  summary.add("pictures", status->captured);
+  summary.add("not taken in time", status->dropped);
+  summary.add("lost on the way", status->lost);
+  summary.add("damaged", status->damaged);
+  summary.add("connections", status->connections);
+  summary.add("longest silence", status->longest_silence_s, "s");
+  summary.add("stamped by", status->clock == CaptureClock::Driver ? "its driver" : "the arrival");
 }
 
 double rate_hz(const Experiment& experiment) {

@@ -35,9 +35,12 @@ void finish_run(RunRecorder& recorder, const Template& model, const Task& task, 
 /// Prints the summary on stdout and where the run folder is.
 void print_result(const RunResult& result);
 
-/// Makes the command line's source the task's: sequence:FILE, images:PATTERN, video:FILE or a live
-/// camera. Template, camera and size stay the task's, but for a described sequence's rectangle.
-void override_source(Experiment& experiment, const std::string& source);
+/// Makes the command line's source the task's (see parse_source, whose refusal it throws).
+/// Template, camera and size stay the task's, but for a described sequence's rectangle.
+void override_source(Experiment& experiment, const std::string& text);
+
+/// What became of a source that runs by itself, as a section of a summary; nothing for any other.
+void add_source(Summary& summary, const FrameSource& source);
 
 /// The frames of a task. Throws for a source that cannot be opened.
 std::unique_ptr<FrameSource> open_source(const Experiment& experiment);

@@ -152,6 +152,13 @@ class TrackRun {
   double inliers_ = 0;
 };
 
+/// The next frame with an image: nobody flies here who must hear that the camera is silent.
+std::optional<Frame> next_image(FrameSource& source) {
+  std::optional<Frame> next = source.next();
+  while (next && !has_image(*next) && !interrupted()) next = source.next();
+  return next && has_image(*next) ? std::move(next) : std::nullopt;
+}
+
 /// Folds the tracker over the frames; the reason why it ended.
 std::string fold(TrackRun& job, FrameSource& source, Frame frame) {
   Progress progress(source.frame_count());
@@ -162,12 +169,12 @@ std::string fold(TrackRun& job, FrameSource& source, Frame frame) {
     if (interrupted()) return "interrupted";
     progress.step(job.frames(), "");
     const double ask_s = monotonic_s();
-    std::optional<Frame> next = source.next();
+    std::optional<Frame> next = next_image(source);
     source_ms = (monotonic_s() - ask_s) * 1e3;
     for (; told < source.skipped().size(); ++told) {
       fmt::print(stderr, "skipped: {}\n", source.skipped()[told]);
     }
-    if (!next) return "end of the frames";
+    if (!next) return interrupted() ? "interrupted" : "end of the frames";
     frame = std::move(*next);
   }
 }
@@ -193,6 +200,7 @@ int run(const TrackArguments& a) {
   RunResult result{recorder.folder(), tracking.summary(*source, ended_by), 0};
   recorder.add_times(result.summary);
   result.summary.add("peak memory", peak_memory_mb(), "MB");
+  add_source(result.summary, *source);
   RunView view;
   view.image_width = first.gray.cols;
   view.image_height = first.gray.rows;

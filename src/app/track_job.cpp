@@ -2,6 +2,7 @@
 
 #include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence_file.hpp"
+#include "kestrel/io/source_address.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -18,21 +19,34 @@ TrackJob described(const std::filesystem::path& file) {
   return job;
 }
 
-bool is_live(const std::string& input) {
-  if (input == "dc1394") return true;
-  for (const char* kind : {"camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
-    if (input.rfind(kind, 0) == 0) return true;
+/// The job of an input that begins with a scheme.
+TrackJob addressed(const std::string& text) {
+  const SourceAddress source = parse_source(text);
+  if (source.kind == SourceKind::Sequence) return described(source.place);
+  TrackJob job;
+  if (is_live(source.kind)) {
+    job.live = text;
+  } else {
+    job.sequence.input = source.place;
   }
-  return false;
+  return job;
+}
+
+/// The job of an input; one without a scheme is a description, or images or a video.
+TrackJob job_of(const std::string& input) {
+  const bool is_address = is_source_address(input) && input != "simulation";
+  if (is_address) return addressed(input);
+  const std::string extension = std::filesystem::path(input).extension().string();
+  if (extension == ".yaml" || extension == ".yml") return described(input);
+  TrackJob job;
+  job.sequence.input = input;
+  return job;
 }
 
 }  // namespace
 
 TrackJob track_job(const TrackArguments& a) {
-  const std::string extension = std::filesystem::path(a.input).extension().string();
-  const bool description = extension == ".yaml" || extension == ".yml";
-  TrackJob job = description ? described(a.input) : TrackJob{};
-  if (!description) (is_live(a.input) ? job.live : job.sequence.input) = a.input;
+  TrackJob job = job_of(a.input);
   if (a.roi) job.roi = a.roi;
   if (a.first_frame > 0) job.sequence.first_frame = a.first_frame;
   if (a.last_frame) job.sequence.last_frame = a.last_frame;
@@ -51,10 +65,13 @@ std::unique_ptr<FrameSource> open_source(const TrackJob& job) {
 }
 
 std::filesystem::path default_folder(const std::string& input) {
-  std::filesystem::path path = std::filesystem::path(input).lexically_normal();
+  const bool is_address = is_source_address(input);
+  const SourceAddress source = is_address ? parse_source(input) : SourceAddress{};
+  if (is_address && is_live(source.kind)) return std::filesystem::path("runs") / "track";
+  auto path = std::filesystem::path(is_address ? source.place : input).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   if (path.filename().string().find('%') != std::string::npos) path = path.parent_path();
-  const std::string stem = is_live(input) ? "" : path.stem().string();
+  const std::string stem = path.stem().string();
   return std::filesystem::path("runs") / (stem.empty() ? "track" : "track-" + stem);
 }
 

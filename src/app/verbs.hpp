@@ -24,5 +24,7 @@ int run(const ExplainArguments& arguments);
 int run(const SwitchArguments& arguments);
 int run(const KeyArguments& arguments);
 int run(const JogArguments& arguments);
+int run(const CamerasArguments& arguments);
+int run(const RecordArguments& arguments);
 
 }  // namespace kestrel::app

@@ -1,73 +1,74 @@
 #include "kestrel/io/dc1394_camera.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
 
-#include <dc1394/dc1394.h>
 #include <fmt/format.h>
 
-#include "kestrel/io/live_camera.hpp"
+#include <opencv2/core.hpp>
+
+#include "kestrel/io/raw_picture.hpp"
+
+#include "dc1394_bus.hpp"
 
 namespace kestrel {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using iidc::fail;
+using iidc::require;
 
 constexpr std::uint32_t kBuffers = 4;
 constexpr auto kPollInterval = std::chrono::milliseconds(1);
+constexpr double kWait_s = 0.1;
+constexpr double kOldest_s = 10;  // a stamp older than that is wrong
 
-/// The modes in which a frame is taken, the best first.
-constexpr dc1394video_mode_t kModes[] = {
-    DC1394_VIDEO_MODE_640x480_MONO8,  DC1394_VIDEO_MODE_800x600_MONO8,
-    DC1394_VIDEO_MODE_1024x768_MONO8, DC1394_VIDEO_MODE_1280x960_MONO8,
-    DC1394_VIDEO_MODE_640x480_YUV411, DC1394_VIDEO_MODE_640x480_YUV422,
-    DC1394_VIDEO_MODE_640x480_RGB8};
-
-[[noreturn]] void fail(const std::string& what) { throw std::runtime_error("dc1394: " + what); }
-
-void require(dc1394error_t error, const char* doing) {
-  if (error != DC1394_SUCCESS) fail(fmt::format("{}: {}", doing, dc1394_error_get_string(error)));
+iidc::Bus opened_bus() {
+  iidc::Bus bus(dc1394_new());
+  if (!bus) fail("the FireWire bus cannot be opened; check /dev/fw* and its permissions");
+  return bus;
 }
 
-/// Releases with the library's own functions.
-struct Release {
-  void operator()(dc1394_t* bus) const { dc1394_free(bus); }
-  void operator()(dc1394camera_list_t* list) const { dc1394_camera_free_list(list); }
-  void operator()(dc1394camera_t* camera) const { dc1394_camera_free(camera); }
+/// Sets a feature by hand to a value in its absolute unit.
+void set_feature(dc1394camera_t& camera, dc1394feature_t feature, std::optional<double> value,
+                 const char* key) {
+  if (!value) return;
+  const bool done =
+      dc1394_feature_set_mode(&camera, feature, DC1394_FEATURE_MODE_MANUAL) == DC1394_SUCCESS &&
+      dc1394_feature_set_absolute_control(&camera, feature, DC1394_ON) == DC1394_SUCCESS &&
+      dc1394_feature_set_absolute_value(&camera, feature, float(*value)) == DC1394_SUCCESS;
+  if (!done) fail(fmt::format("{}: the camera does not take {}; remove the key", key, *value));
+}
+
+/// A ring buffer picture that goes back at the end of its scope.
+class Loan {
+ public:
+  Loan(dc1394camera_t& camera, dc1394video_frame_t& frame) : camera_(camera), frame_(frame) {}
+  ~Loan() {
+    if (!given_back_) dc1394_capture_enqueue(&camera_, &frame_);
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  void give_back() {
+    given_back_ = true;
+    require(dc1394_capture_enqueue(&camera_, &frame_), "giving a frame back");
+  }
+
+ private:
+  dc1394camera_t& camera_;
+  dc1394video_frame_t& frame_;
+  bool given_back_ = false;
 };
 
-std::uint64_t guid_of(const dc1394camera_list_t& list, const std::string& wanted) {
-  if (list.num == 0) fail("no camera on the FireWire bus; connect one, and check /dev/fw*");
-  if (wanted.empty()) return list.ids[0].guid;
-  std::uint64_t guid = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto read = std::from_chars(wanted.data(), end, guid, 16);
-  if (read.ec != std::errc() || read.ptr != end) {
-    fail("'" + wanted + "' is no GUID; give 16 hexadecimal digits");
-  }
-  std::string others;
-  for (std::uint32_t i = 0; i < list.num; ++i) {
-    if (list.ids[i].guid == guid) return guid;
-    others += fmt::format(" {:016x}", list.ids[i].guid);
-  }
-  fail(fmt::format("no camera {:016x} on the bus; there is{}", guid, others));
-}
-
-class Dc1394Camera : public FrameSource, public LiveClock {
+class Dc1394Camera : public CameraDevice {
  public:
-  Dc1394Camera(const std::string& guid, double timeout_s)
-      : timeout_(
-            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s))),
-        bus_(dc1394_new()) {
-    if (!bus_) fail("the FireWire bus cannot be opened; check /dev/fw* and its permissions");
-    dc1394camera_list_t* list = nullptr;
-    require(dc1394_camera_enumerate(bus_.get(), &list), "looking for cameras");
-    const std::unique_ptr<dc1394camera_list_t, Release> cameras(list);
-    camera_.reset(dc1394_camera_new(bus_.get(), guid_of(*cameras, guid)));
+  Dc1394Camera(const std::string& guid, const CaptureSettings& settings) : bus_(opened_bus()) {
+    camera_.reset(dc1394_camera_new(bus_.get(), iidc::guid_of(*iidc::cameras_on(*bus_), guid)));
     if (!camera_) fail("the camera cannot be opened; check the permissions of /dev/fw*");
-    choose_mode();
+    choose(settings);
+    set_feature(*camera_, DC1394_FEATURE_SHUTTER, settings.exposure_s, "exposure_s");
+    set_feature(*camera_, DC1394_FEATURE_GAIN, settings.gain, "gain");
     require(dc1394_capture_setup(camera_.get(), kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT),
             "reserving the bus");
     const dc1394error_t error = dc1394_video_set_transmission(camera_.get(), DC1394_ON);
@@ -81,8 +82,10 @@ class Dc1394Camera : public FrameSource, public LiveClock {
   Dc1394Camera(const Dc1394Camera&) = delete;
   Dc1394Camera& operator=(const Dc1394Camera&) = delete;
 
-  std::optional<Frame> next() override {
-    for (const auto deadline = Clock::now() + timeout_; Clock::now() < deadline;) {
+  /// The polling calls only: with the waiting ones a camera that is unplugged is waited for for
+  /// ever.
+  std::optional<Picture> next() override {
+    for (const double until_s = monotonic_clock_s() + kWait_s; monotonic_clock_s() < until_s;) {
       dc1394video_frame_t* raw = nullptr;
       require(dc1394_capture_dequeue(camera_.get(), DC1394_CAPTURE_POLICY_POLL, &raw),
               "taking a frame; check the cable");
@@ -90,55 +93,71 @@ class Dc1394Camera : public FrameSource, public LiveClock {
         std::this_thread::sleep_for(kPollInterval);
         continue;
       }
-      const std::int64_t index = index_++;
-      const bool corrupt = dc1394_capture_is_frame_corrupt(camera_.get(), raw) == DC1394_TRUE;
-      const bool newest = raw->frames_behind == 0;
-      if (corrupt) skipped_.push_back(fmt::format("frame {}: it arrived corrupt", index));
-      const double stamp_s = std::chrono::duration<double>(Clock::now() - start_).count();
-      cv::Mat gray;
-      if (newest && !corrupt) gray = gray_of(*raw);
-      require(dc1394_capture_enqueue(camera_.get(), raw), "giving a frame back");
-      if (!gray.empty()) return Frame{index, stamp_s, gray, std::nullopt};
+      Loan loan(*camera_, *raw);
+      Picture picture = picture_of(*raw);
+      loan.give_back();
+      return picture;
     }
-    fail(fmt::format("no frame for {} s; check that the camera is still connected",
-                     std::chrono::duration<double>(timeout_).count()));
+    return std::nullopt;
   }
 
-  const std::vector<std::string>& skipped() const override { return skipped_; }
-  std::optional<std::int64_t> frame_count() const override { return std::nullopt; }
-  double stamp_origin_s() const override {
-    return std::chrono::duration<double>(start_.time_since_epoch()).count();
-  }
+  CaptureClock clock() const override { return clock_; }
 
  private:
-  void choose_mode() {
-    dc1394video_modes_t modes;
-    require(dc1394_video_get_supported_modes(camera_.get(), &modes), "asking for its modes");
-    for (const dc1394video_mode_t mode : kModes) {
-      for (std::uint32_t i = 0; i < modes.num; ++i) {
-        if (modes.modes[i] == mode) return set_mode(mode);
-      }
+  void choose(const CaptureSettings& settings) {
+    const std::vector<iidc::Mode> modes = iidc::modes_of(*camera_);
+    std::vector<CameraMode> plain;
+    for (const iidc::Mode& mode : modes) plain.push_back(mode.mode);
+    ChosenMode chosen;
+    try {
+      chosen = choose_mode(plain, settings, iidc::formats());
+    } catch (const std::runtime_error& error) {
+      fail(std::string(error.what()) + " in the formats that are read");
     }
-    fail("the camera has none of the modes that are read (8-bit grey, 640x480 YUV or RGB)");
+    const auto it = std::find_if(modes.begin(), modes.end(), [&](const iidc::Mode& mode) {
+      return mode.mode.format == chosen.mode.format && mode.mode.size == chosen.mode.size &&
+             mode.mode.rates_hz == chosen.mode.rates_hz;
+    });
+    iidc::set_mode(*camera_, *it, chosen.rate_hz);
+    if (it->coding == DC1394_COLOR_CODING_RAW8)
+      require(dc1394_format7_get_color_filter(camera_.get(), it->id, &pattern_),
+              "asking for the pattern of its colours");
   }
 
-  void set_mode(dc1394video_mode_t mode) {
-    require(dc1394_video_set_iso_speed(camera_.get(), DC1394_ISO_SPEED_400), "setting the speed");
-    require(dc1394_video_set_mode(camera_.get(), mode), "setting the mode");
-    dc1394framerates_t rates;
-    require(dc1394_video_get_supported_framerates(camera_.get(), mode, &rates),
-            "asking for its rates");
-    if (rates.num == 0) fail("the camera names no frame rate");
-    dc1394framerate_t highest = rates.framerates[0];
-    for (std::uint32_t i = 1; i < rates.num; ++i) highest = std::max(highest, rates.framerates[i]);
-    require(dc1394_video_set_framerate(camera_.get(), highest), "setting the rate");
+  Picture picture_of(const dc1394video_frame_t& raw) {
+    Picture picture;
+    picture.captured_s = captured_s(raw);
+    if (dc1394_capture_is_frame_corrupt(camera_.get(), const_cast<dc1394video_frame_t*>(&raw)) ==
+        DC1394_TRUE) {
+      picture.damage = "arrived corrupt";
+      return picture;
+    }
+    picture.gray = gray_of_frame(raw);
+    return picture;
+  }
+
+  /// libdc1394's stamp is of the wall clock: its age is what counts.
+  double captured_s(const dc1394video_frame_t& raw) {
+    using Wall = std::chrono::system_clock;
+    const double wall_s = std::chrono::duration<double>(Wall::now().time_since_epoch()).count();
+    const double age_s = wall_s - 1e-6 * double(raw.timestamp);
+    const bool is_true = age_s >= 0 && age_s < kOldest_s;
+    clock_ = is_true ? CaptureClock::Driver : CaptureClock::Arrival;
+    return monotonic_clock_s() - (is_true ? age_s : 0);
   }
 
   /// The frame's pixels, copied out of the ring buffer.
-  static cv::Mat gray_of(const dc1394video_frame_t& raw) {
-    cv::Mat gray(int(raw.size[1]), int(raw.size[0]), CV_8UC1);
+  cv::Mat gray_of_frame(const dc1394video_frame_t& raw) const {
+    const cv::Size size(int(raw.size[0]), int(raw.size[1]));
+    cv::Mat gray(size, CV_8UC1);
     if (raw.color_coding == DC1394_COLOR_CODING_MONO8) {
-      cv::Mat(gray.rows, gray.cols, CV_8UC1, raw.image, raw.stride).copyTo(gray);
+      cv::Mat(size, CV_8UC1, raw.image, raw.stride).copyTo(gray);
+    } else if (raw.color_coding == DC1394_COLOR_CODING_RAW8) {
+      cv::Mat rgb(size, CV_8UC3);
+      require(dc1394_bayer_decoding_8bit(raw.image, rgb.data, raw.size[0], raw.size[1], pattern_,
+                                         DC1394_BAYER_METHOD_BILINEAR),
+              "decoding the pattern of its colours");
+      return gray_of(RawFormat::Rgb24, {rgb.data, rgb.total() * 3, 0}, size);
     } else {
       require(dc1394_convert_to_MONO8(raw.image, gray.data, raw.size[0], raw.size[1],
                                       raw.yuv_byte_order, raw.color_coding, raw.data_depth),
@@ -147,18 +166,42 @@ class Dc1394Camera : public FrameSource, public LiveClock {
     return gray;
   }
 
-  const Clock::time_point start_ = Clock::now();
-  Clock::duration timeout_;
-  std::unique_ptr<dc1394_t, Release> bus_;
-  std::unique_ptr<dc1394camera_t, Release> camera_;
-  std::int64_t index_ = 0;
-  std::vector<std::string> skipped_;
+  iidc::Bus bus_;
+  iidc::Camera camera_;
+  dc1394color_filter_t pattern_ = DC1394_COLOR_FILTER_RGGB;
+  CaptureClock clock_ = CaptureClock::Driver;
 };
+
+Dc1394Listing listing_of(dc1394_t& bus, std::uint64_t guid) {
+  Dc1394Listing it{fmt::format("{:016x}", guid), "", {}, ""};
+  try {
+    const iidc::Camera camera(dc1394_camera_new(&bus, guid));
+    if (!camera) fail("the camera cannot be opened; check the permissions of /dev/fw*");
+    if (camera->vendor != nullptr) it.name = camera->vendor;
+    if (camera->model != nullptr)
+      it.name += (it.name.empty() ? "" : " ") + std::string(camera->model);
+    for (const iidc::Mode& mode : iidc::modes_of(*camera)) it.modes.push_back(mode.mode);
+  } catch (const std::runtime_error& error) {
+    it.trouble = error.what();
+  }
+  return it;
+}
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_dc1394(const std::string& guid, double timeout_s) {
-  return std::make_unique<Dc1394Camera>(guid, timeout_s);
+std::unique_ptr<CameraDevice> open_dc1394(const std::string& guid,
+                                          const CaptureSettings& settings) {
+  return std::make_unique<Dc1394Camera>(guid, settings);
+}
+
+std::vector<Dc1394Listing> list_dc1394() {
+  std::vector<Dc1394Listing> cameras;
+  const iidc::Bus bus(dc1394_new());
+  if (!bus) return cameras;
+  const iidc::CameraList list = iidc::cameras_on(*bus);
+  for (std::uint32_t i = 0; i < list->num; ++i)
+    cameras.push_back(listing_of(*bus, list->ids[i].guid));
+  return cameras;
 }
 
 }  // namespace kestrel

@@ -1,7 +1,11 @@
 #include <csetjmp>
 #include <cstring>
+#include <stdexcept>
+#include <string>
 
 #include <png.h>
+
+#include "kestrel/io/image_codec.hpp"
 
 #include "image_formats.hpp"
 
@@ -89,6 +93,24 @@ std::optional<cv::Mat> decode_png(const std::vector<unsigned char>& bytes) {
   rows.reserve(std::size_t(size.height));
   for (int v = 0; v < size.height; ++v) rows.push_back(image.ptr(v));
   return reader.read_rows(rows) ? image : cv::Mat();
+}
+
+std::vector<unsigned char> encode_png(const cv::Mat& gray) {
+  if (gray.empty() || gray.type() != CV_8UC1)
+    throw std::invalid_argument("PNG: a picture that is not 8-bit grey");
+  png_image file{};
+  file.version = PNG_IMAGE_VERSION;
+  file.width = png_uint_32(gray.cols);
+  file.height = png_uint_32(gray.rows);
+  file.format = PNG_FORMAT_GRAY;
+  file.flags = PNG_IMAGE_FLAG_FAST;
+  std::vector<unsigned char> bytes(PNG_IMAGE_PNG_SIZE_MAX(file));
+  png_alloc_size_t count = bytes.size();
+  if (png_image_write_to_memory(&file, bytes.data(), &count, 0, gray.data, png_int_32(gray.step),
+                                nullptr) == 0)
+    throw std::runtime_error(std::string("PNG: ") + file.message);
+  bytes.resize(count);
+  return bytes;
 }
 
 }  // namespace kestrel

@@ -7,6 +7,7 @@
 
 #include "kestrel/io/gray_image.hpp"
 #include "kestrel/io/image_files.hpp"
+#include "kestrel/io/stamps_file.hpp"
 #include "kestrel/io/video_reader.hpp"
 
 namespace kestrel {
@@ -25,7 +26,8 @@ constexpr double kUsualRate_hz = 30;
 /// Images in the order of their numbers.
 class ImageSequence : public FrameSource {
  public:
-  ImageSequence(NumberedFiles files, double rate_hz) : files_(std::move(files)), rate_hz_(rate_hz) {
+  ImageSequence(NumberedFiles files, StampOf stamp_of)
+      : files_(std::move(files)), stamp_of_(std::move(stamp_of)) {
     next_ = files_.begin();
     expected_ = next_->first;
   }
@@ -38,7 +40,9 @@ class ImageSequence : public FrameSource {
       }
       ++expected_;
       try {
-        return Frame{index, double(index) / rate_hz_, load_gray(file), std::nullopt};
+        const std::optional<double> stamp_s = stamp_of_(index);
+        if (stamp_s) return Frame{index, *stamp_s, load_gray(file), std::nullopt};
+        skipped_.push_back("frame " + std::to_string(index) + ": has no stamp");
       } catch (const FileError& error) {
         skipped_.push_back("frame " + std::to_string(index) + ": " + error.what());
       }
@@ -53,7 +57,7 @@ class ImageSequence : public FrameSource {
   NumberedFiles files_;
   NumberedFiles::const_iterator next_;
   std::int64_t expected_ = 0;
-  double rate_hz_;
+  StampOf stamp_of_;
   std::vector<std::string> skipped_;
 };
 
@@ -188,7 +192,9 @@ std::unique_ptr<FrameSource> open_sequence(const SequenceOptions& options) {
     return std::make_unique<VideoSequence>(options);
   }
   return std::make_unique<ImageSequence>(files_in_range(options),
-                                         options.rate_hz.value_or(kUsualRate_hz));
+                                         options.stamps && !options.rate_hz
+                                             ? stamps_in(*options.stamps)
+                                             : stamps_at(options.rate_hz.value_or(kUsualRate_hz)));
 }
 
 }  // namespace kestrel

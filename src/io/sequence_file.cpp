@@ -31,6 +31,7 @@ SequenceOptions read_options(const Section& root) {
     options.rate_hz = root.number("rate_hz");
     if (!(*options.rate_hz > 0)) root.fail("rate_hz", "must be positive");
   }
+  options.stamps = path_if(root, "stamps");
   return options;
 }
 

@@ -5,6 +5,7 @@
 
 #include "kestrel/io/camera_file.hpp"
 #include "kestrel/io/mount_file.hpp"
+#include "kestrel/io/source_address.hpp"
 #include "kestrel/io/task_options.hpp"
 
 namespace kestrel {
@@ -16,23 +17,22 @@ bool begins_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// The file or pattern after the colon, relative to the task file.
-std::string place_of(const Section& root, const std::string& source) {
-  const std::string place = source.substr(source.find(':') + 1);
-  if (place.empty()) root.fail("source", "names no file after the colon; add one");
+/// A file or pattern that a source names, relative to the task file.
+std::string beside(const Section& root, const std::string& place) {
   return (root.file().parent_path() / place).lexically_normal().string();
 }
 
-std::string read_source(const Section& root) {
-  std::string source = root.text("source");
-  for (const char* start :
-       {"sequence:", "images:", "video:", "camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
-    if (begins_with(source, start)) return source;
+SourceAddress read_source(const Section& root) {
+  SourceAddress source;
+  try {
+    source = parse_source(root.text("source"));
+  } catch (const std::invalid_argument& error) {
+    root.fail("source", error.what());
   }
-  if (source == "simulation" || source == "dc1394") return source;
-  root.fail("source", "is '" + source +
-                          "'; give sequence:FILE, images:PATTERN, video:FILE, camera:N, "
-                          "dc1394 or dc1394:GUID, a stream's address, or simulation");
+  const bool is_description =
+      begins_with(source.text, "rtp:") && !begins_with(source.text, "rtp://");
+  if (is_description) source.text = "rtp:" + beside(root, source.text.substr(4));
+  return source;
 }
 
 std::string read_sink(const Section& root) {
@@ -44,13 +44,13 @@ std::string read_sink(const Section& root) {
 }
 
 /// What a source of recorded frames opens; rate_hz and the range of frames may be set in the task.
-std::optional<SequenceOptions> read_recording(const Section& root, const std::string& source,
+std::optional<SequenceOptions> read_recording(const Section& root, const SourceAddress& source,
                                               const std::optional<SequenceDescription>& described) {
   SequenceOptions options;
   if (described) {
     options = described->sequence;
-  } else if (begins_with(source, "images:") || begins_with(source, "video:")) {
-    options.input = place_of(root, source);
+  } else if (source.kind == SourceKind::Images || source.kind == SourceKind::Video) {
+    options.input = beside(root, source.place);
   } else {
     return std::nullopt;
   }
@@ -141,9 +141,9 @@ TargetPose read_goal(const Section& root) {
 }  // namespace
 
 Experiment read_experiment(const Section& root) {
-  const std::string source = read_source(root);
+  const SourceAddress source = read_source(root);
   std::optional<SequenceDescription> described;
-  if (begins_with(source, "sequence:")) described = load_sequence(place_of(root, source));
+  if (source.kind == SourceKind::Sequence) described = load_sequence(beside(root, source.place));
   const Section camera = root.child("camera");
   const FoundCamera found = read_camera(camera, described);
   const Mount mount = read_camera_mount(camera);
@@ -158,7 +158,8 @@ Experiment read_experiment(const Section& root) {
                   read_servo_options(root),
                   read_command_limits(root),
                   read_loss_options(root)};
-  Experiment e{root.file(), source, read_sink(root), task, {}, {}, {}, found.file, {}};
+  Experiment e{root.file(), source.text, read_sink(root), task, {},
+               {},          {},          found.file,      {},   read_live_options(root)};
   e.sequence = read_recording(root, source, described);
   if (target.has("image")) e.template_image = target.path("image");
   if (target.has("template_px")) {

@@ -1,5 +1,7 @@
 #include "video_encoder.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -14,6 +16,8 @@ namespace kestrel {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kTicks_Hz = 90000;  // of MPEG: any usual rate is a whole number of them
 
 const AVCodec* encoder_of(VideoKind kind) {
   return avcodec_find_encoder(kind == VideoKind::H264 ? AV_CODEC_ID_H264 : AV_CODEC_ID_MJPEG);
@@ -39,13 +43,14 @@ void keep_small(AVCodecContext& codec) {
 }
 
 libav::Codec open_encoder(VideoKind kind, const cv::Size& size, double frames_per_s,
-                          bool wants_global_header) {
+                          VideoTimes times, bool wants_global_header) {
   const AVCodec* const encoder = encoder_of(kind);
   libav::Codec codec(encoder == nullptr ? nullptr : avcodec_alloc_context3(encoder));
   if (!codec) return nullptr;
   constexpr int kFinestRate = 100000;  // the largest denominator of a rate
   codec->framerate = av_d2q(frames_per_s, kFinestRate);
-  codec->time_base = av_inv_q(codec->framerate);
+  codec->time_base =
+      times == VideoTimes::Steady ? av_inv_q(codec->framerate) : AVRational{1, kTicks_Hz};
   codec->width = size.width;
   codec->height = size.height;
   if (wants_global_header) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
@@ -79,8 +84,11 @@ struct VideoEncoder::File {
   libav::Packet packet{av_packet_alloc()};
   libav::Picture picture;
   libav::Scaler scaler;
-  std::int64_t pictures = 0;
+  std::int64_t last = -1;  // time of the last picture, in the codec's time base
   bool is_whole = true;
+
+  VideoTimes times = VideoTimes::Steady;
+  std::int64_t ticks_of(double time_s) const;
 
   bool begin();
   void encode(const AVFrame* next);
@@ -90,11 +98,17 @@ struct VideoEncoder::File {
 void VideoEncoder::File::encode(const AVFrame* next) {
   if (avcodec_send_frame(codec.get(), next) < 0) is_whole = false;
   while (is_whole && avcodec_receive_packet(codec.get(), packet.get()) >= 0) {
-    if (packet->duration == 0) packet->duration = 1;  // in time_base: to the next picture
+    if (packet->duration == 0)
+      packet->duration = av_rescale_q(1, av_inv_q(codec->framerate), codec->time_base);
     av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
     packet->stream_index = stream->index;
     if (av_interleaved_write_frame(output.get(), packet.get()) < 0) is_whole = false;
   }
+}
+
+std::int64_t VideoEncoder::File::ticks_of(double time_s) const {
+  if (times == VideoTimes::Steady) return last + 1;
+  return std::llround(time_s * codec->time_base.den / codec->time_base.num);
 }
 
 /// Creates the file and writes its head; false when that fails.
@@ -105,14 +119,16 @@ bool VideoEncoder::File::begin() {
 }
 
 std::unique_ptr<VideoEncoder> VideoEncoder::open(const fs::path& path, VideoKind kind,
-                                                 const cv::Size& size, double frames_per_s) {
+                                                 const cv::Size& size, double frames_per_s,
+                                                 VideoTimes times) {
   libav::be_silent();
   auto s = std::make_unique<File>();
   s->path = path;
+  s->times = times;
   s->output = new_output(kind);
   if (!s->output) return nullptr;
   const bool wants_global_header = (s->output->oformat->flags & AVFMT_GLOBALHEADER) != 0;
-  s->codec = open_encoder(kind, size, frames_per_s, wants_global_header);
+  s->codec = open_encoder(kind, size, frames_per_s, times, wants_global_header);
   s->stream = avformat_new_stream(s->output.get(), nullptr);
   if (!s->codec || s->stream == nullptr) return nullptr;
   s->stream->time_base = s->codec->time_base;
@@ -127,7 +143,9 @@ VideoEncoder::VideoEncoder(std::unique_ptr<File> file) : file_(std::move(file)) 
 
 VideoEncoder::~VideoEncoder() = default;
 
-void VideoEncoder::write(const cv::Mat& bgr) {
+bool VideoEncoder::is_whole() const { return file_->is_whole; }
+
+void VideoEncoder::write(const cv::Mat& bgr, double time_s) {
   File& s = *file_;
   if (!s.is_whole || av_frame_make_writable(s.picture.get()) < 0) return;
   libav::Picture from(av_frame_alloc());
@@ -137,7 +155,8 @@ void VideoEncoder::write(const cv::Mat& bgr) {
   from->data[0] = const_cast<unsigned char*>(bgr.data);
   from->linesize[0] = int(bgr.step);
   s.is_whole = libav::convert(s.scaler, *from, *s.picture);
-  s.picture->pts = s.pictures++;
+  s.last = std::max(s.last + 1, s.ticks_of(time_s));
+  s.picture->pts = s.last;
   if (s.is_whole) s.encode(s.picture.get());
 }
 

@@ -3,84 +3,31 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <opencv2/core.hpp>
-
-#include "kestrel/io/gray_image.hpp"
-
-#include "libav.hpp"
-
-extern "C" {
-#include <libavutil/display.h>
-}
+#include "libav_decoder.hpp"
 
 namespace kestrel {
 namespace {
 
 constexpr int kMostErrors = 512;  // in a row; then the rest of the file counts as lost
 
-struct CloseInput {
-  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
-};
-using Input = std::unique_ptr<AVFormatContext, CloseInput>;
-
 /// The opened file; null for what is no video. "file:" keeps a colon in the path from being read as
 /// a protocol.
-Input open_input(const std::string& path) {
+libav::Input open_input(const std::string& path) {
   AVFormatContext* raw = nullptr;
   if (avformat_open_input(&raw, ("file:" + path).c_str(), nullptr, nullptr) < 0) return nullptr;
-  Input input(raw);
+  libav::Input input(raw);
   return avformat_find_stream_info(raw, nullptr) < 0 ? nullptr : std::move(input);
-}
-
-/// The first video stream that is no cover picture; null when there is none.
-AVStream* video_stream(const AVFormatContext& input) {
-  for (unsigned i = 0; i < input.nb_streams; ++i) {
-    AVStream* const stream = input.streams[i];
-    const bool is_cover = (stream->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
-    if (stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_cover) return stream;
-  }
-  return nullptr;
-}
-
-/// The opened decoder; null when there is none.
-libav::Codec open_decoder(const AVStream& stream) {
-  const AVCodec* const kind = avcodec_find_decoder(stream.codecpar->codec_id);
-  libav::Codec codec(kind == nullptr ? nullptr : avcodec_alloc_context3(kind));
-  if (!codec || avcodec_parameters_to_context(codec.get(), stream.codecpar) < 0) return nullptr;
-  codec->pkt_timebase = stream.time_base;
-  codec->thread_count = 1;    // each further one holds more pictures
-  codec->apply_cropping = 0;  // cropped here, after the conversion, as OpenCV does
-  return avcodec_open2(codec.get(), kind, nullptr) < 0 ? nullptr : std::move(codec);
-}
-
-/// By how many degrees clockwise the file wants its pictures turned: 0, 90, 180 or 270.
-int rotation_deg(const AVStream& stream) {
-  const std::uint8_t* const matrix =
-      av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
-  if (matrix == nullptr) return 0;
-  const double angle = av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
-  const int clockwise = std::isfinite(angle) ? -int(std::lround(angle)) : 0;
-  return (clockwise + 360) % 360;
-}
-
-cv::Mat turned(const cv::Mat& image, int clockwise_deg) {
-  cv::Mat out = image;
-  if (clockwise_deg == 90) cv::rotate(image, out, cv::ROTATE_90_CLOCKWISE);
-  if (clockwise_deg == 180) cv::rotate(image, out, cv::ROTATE_180);
-  if (clockwise_deg == 270) cv::rotate(image, out, cv::ROTATE_90_COUNTERCLOCKWISE);
-  return out;
 }
 
 }  // namespace
 
 struct VideoReader::Decoder {
-  Input input;
+  libav::Input input;
   AVStream* stream = nullptr;
   libav::Codec codec;
   libav::Packet packet{av_packet_alloc()};
   libav::Picture picture{av_frame_alloc()};
-  libav::Picture bgr;
-  libav::Scaler scaler;
+  libav::GrayConverter converter;
   std::optional<std::int64_t> start;  // time stamp of the first picture
   std::int64_t pictures = 0;
   std::int64_t damaged = 0;
@@ -93,8 +40,8 @@ struct VideoReader::Decoder {
 
 bool VideoReader::Decoder::open(const std::string& path) {
   input = open_input(path);
-  stream = input ? video_stream(*input) : nullptr;
-  if (stream != nullptr) codec = open_decoder(*stream);
+  stream = input ? libav::video_stream(*input) : nullptr;
+  if (stream != nullptr) codec = libav::open_decoder(*stream, libav::Delay::AsNeeded);
   return codec && packet && picture;
 }
 
@@ -126,18 +73,7 @@ bool VideoReader::Decoder::decode() {
 }
 
 /// The decoded picture in grey; empty when it cannot be converted.
-cv::Mat VideoReader::Decoder::gray() {
-  const AVFrame& from = *picture;
-  if (!bgr || bgr->width != from.width || bgr->height != from.height)
-    bgr = libav::new_picture(from.width, from.height, AV_PIX_FMT_BGR24);
-  if (!libav::convert(scaler, from, *bgr)) return {};
-  const cv::Mat whole(bgr->height, bgr->width, CV_8UC3, bgr->data[0],
-                      std::size_t(bgr->linesize[0]));
-  const cv::Rect visible(int(from.crop_left), int(from.crop_top),
-                         from.width - int(from.crop_left + from.crop_right),
-                         from.height - int(from.crop_top + from.crop_bottom));
-  return turned(as_gray(whole(visible)), rotation_deg(*stream));
-}
+cv::Mat VideoReader::Decoder::gray() { return converter.gray(*picture, *stream); }
 
 VideoReader::VideoReader(const std::filesystem::path& path)
     : decoder_(std::make_unique<Decoder>()) {

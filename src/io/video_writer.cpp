@@ -52,8 +52,8 @@ struct VideoWriter::Encoder {
   std::unique_ptr<VideoEncoder> file;
 };
 
-VideoWriter::VideoWriter(const fs::path& path, double frames_per_s)
-    : path_(path), frames_per_s_(frames_per_s) {
+VideoWriter::VideoWriter(const fs::path& path, double frames_per_s, VideoTimes times)
+    : path_(path), frames_per_s_(frames_per_s), times_(times) {
   if (!(frames_per_s > 0) || !std::isfinite(frames_per_s))
     throw std::invalid_argument("video: frames per second must be positive");
   write_text(path, std::string(4096, '\0'));  // says what is wrong with the path; FFmpeg would not
@@ -68,10 +68,11 @@ void VideoWriter::open(const cv::Size& first) {
   const cv::Size size(first.width + first.width % 2, first.height + first.height % 2);
   std::unique_ptr<VideoEncoder> file;
   if (path_.extension() != ".avi")
-    file = VideoEncoder::open(path_, VideoKind::H264, size, frames_per_s_);
+    file = VideoEncoder::open(path_, VideoKind::H264, size, frames_per_s_, times_);
   if (!file) {
+    times_ = VideoTimes::Steady;
     path_.replace_extension(".avi");
-    file = VideoEncoder::open(path_, VideoKind::MotionJpeg, size, frames_per_s_);
+    file = VideoEncoder::open(path_, VideoKind::MotionJpeg, size, frames_per_s_, times_);
   }
   if (!file)
     throw std::runtime_error(path_.string() +
@@ -80,13 +81,18 @@ void VideoWriter::open(const cv::Size& first) {
   *encoder_ = {size, std::move(file)};
 }
 
-void VideoWriter::write(const cv::Mat& picture) {
+void VideoWriter::write(const cv::Mat& picture, double time_s) {
   if (picture.empty() || is_closed_) return;
   const cv::Mat bgr = as_bgr(picture);
-  if (!encoder_) open(bgr.size());
-  encoder_->file->write(fitted(bgr, encoder_->size));
+  if (!encoder_) {
+    open(bgr.size());
+    first_s_ = time_s;
+  }
+  encoder_->file->write(fitted(bgr, encoder_->size), time_s - first_s_);
   ++frames_;
 }
+
+bool VideoWriter::is_whole() const { return !encoder_ || encoder_->file->is_whole(); }
 
 void VideoWriter::close() {
   if (!encoder_ || is_closed_) return;

@@ -1,6 +1,7 @@
 // A stand-in for libdc1394, preloaded in front of it: one camera that sends frames, and the faults
 // that the environment variable KESTREL_DC1394_FAULT names. It proves how Kestrel uses the library,
 // not the bus.
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -17,6 +18,14 @@ dc1394camera_t g_camera;                   // NOLINT
 int g_bus;                                 // NOLINT
 int g_taken;                               // NOLINT
 int g_out;                                 // NOLINT
+float g_shutter_s;                         // NOLINT
+float g_gain;                              // NOLINT
+dc1394framerate_t g_rate;                  // NOLINT
+
+std::uint64_t now_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::uint64_t(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+}
 
 bool fault(const char* name) {
   const char* set = std::getenv("KESTREL_DC1394_FAULT");
@@ -29,6 +38,10 @@ extern "C" {
 
 /// Frames that were taken and not given back; also says that the stand-in is there.
 int kestrel_dc1394_frames_out() { return g_out; }
+/// What was set.
+float kestrel_dc1394_shutter_s() { return g_shutter_s; }
+float kestrel_dc1394_gain() { return g_gain; }
+int kestrel_dc1394_rate() { return g_rate; }
 
 dc1394_t* dc1394_new() {
   g_taken = g_out = 0;
@@ -45,7 +58,11 @@ void dc1394_camera_free_list(dc1394camera_list_t* list) {
   delete list;
 }
 dc1394camera_t* dc1394_camera_new(dc1394_t*, uint64_t guid) {
+  static char vendor[] = "Stand-in";
+  static char model[] = "IIDC";
   g_camera.guid = guid;
+  g_camera.vendor = vendor;
+  g_camera.model = model;
   return &g_camera;
 }
 void dc1394_camera_free(dc1394camera_t*) {}
@@ -55,11 +72,53 @@ dc1394error_t dc1394_video_get_supported_modes(dc1394camera_t*, dc1394video_mode
   modes->modes[0] = DC1394_VIDEO_MODE_640x480_YUV411;
   modes->modes[1] =
       fault("odd_modes") ? DC1394_VIDEO_MODE_160x120_YUV444 : DC1394_VIDEO_MODE_640x480_MONO8;
-  if (fault("odd_modes")) modes->modes[0] = DC1394_VIDEO_MODE_FORMAT7_0;
+  if (fault("odd_modes")) modes->modes[0] = DC1394_VIDEO_MODE_160x120_YUV444;
+  if (fault("format7")) {
+    modes->num = 1;
+    modes->modes[0] = DC1394_VIDEO_MODE_FORMAT7_0;
+  }
   return DC1394_SUCCESS;
+}
+dc1394error_t dc1394_format7_get_max_image_size(dc1394camera_t*, dc1394video_mode_t,
+                                                uint32_t* width, uint32_t* height) {
+  *width = kWidth;
+  *height = kHeight;
+  return DC1394_SUCCESS;
+}
+dc1394error_t dc1394_format7_get_color_codings(dc1394camera_t*, dc1394video_mode_t,
+                                               dc1394color_codings_t* codings) {
+  codings->num = 2;
+  codings->codings[0] = DC1394_COLOR_CODING_MONO16;
+  codings->codings[1] = DC1394_COLOR_CODING_RAW8;
+  return DC1394_SUCCESS;
+}
+dc1394error_t dc1394_format7_set_roi(dc1394camera_t*, dc1394video_mode_t,
+                                     dc1394color_coding_t coding, int32_t packet, int32_t left,
+                                     int32_t top, int32_t width, int32_t height) {
+  const bool is_whole = left == 0 && top == 0 && width == int(kWidth) && height == int(kHeight);
+  g_frame.color_coding = coding;
+  return is_whole && packet == DC1394_USE_MAX_AVAIL ? DC1394_SUCCESS : DC1394_FAILURE;
+}
+dc1394error_t dc1394_format7_get_color_filter(dc1394camera_t*, dc1394video_mode_t,
+                                              dc1394color_filter_t* pattern) {
+  *pattern = DC1394_COLOR_FILTER_GRBG;
+  return DC1394_SUCCESS;
+}
+dc1394error_t dc1394_feature_set_mode(dc1394camera_t*, dc1394feature_t, dc1394feature_mode_t mode) {
+  return mode == DC1394_FEATURE_MODE_MANUAL ? DC1394_SUCCESS : DC1394_FAILURE;
+}
+dc1394error_t dc1394_feature_set_absolute_control(dc1394camera_t*, dc1394feature_t,
+                                                  dc1394switch_t on) {
+  return on == DC1394_ON ? DC1394_SUCCESS : DC1394_FAILURE;
+}
+dc1394error_t dc1394_feature_set_absolute_value(dc1394camera_t*, dc1394feature_t feature,
+                                                float value) {
+  (feature == DC1394_FEATURE_SHUTTER ? g_shutter_s : g_gain) = value;
+  return value < 100 ? DC1394_SUCCESS : DC1394_INVALID_FEATURE;
 }
 dc1394error_t dc1394_video_set_mode(dc1394camera_t*, dc1394video_mode_t mode) {
   g_frame.video_mode = mode;
+  g_frame.color_coding = DC1394_COLOR_CODING_MONO8;
   return DC1394_SUCCESS;
 }
 dc1394error_t dc1394_video_get_supported_framerates(dc1394camera_t*, dc1394video_mode_t,
@@ -70,7 +129,8 @@ dc1394error_t dc1394_video_get_supported_framerates(dc1394camera_t*, dc1394video
   return DC1394_SUCCESS;
 }
 dc1394error_t dc1394_video_set_framerate(dc1394camera_t*, dc1394framerate_t rate) {
-  return rate == DC1394_FRAMERATE_30 ? DC1394_SUCCESS : DC1394_INVALID_FRAMERATE;
+  g_rate = rate;
+  return DC1394_SUCCESS;
 }
 dc1394error_t dc1394_capture_setup(dc1394camera_t*, uint32_t, uint32_t) {
   return fault("no_bandwidth") ? DC1394_NO_BANDWIDTH : DC1394_SUCCESS;
@@ -79,13 +139,18 @@ dc1394error_t dc1394_capture_stop(dc1394camera_t*) { return DC1394_SUCCESS; }
 dc1394error_t dc1394_video_set_transmission(dc1394camera_t*, dc1394switch_t) {
   return DC1394_SUCCESS;
 }
-/// Frame k has grey value k. Every third call finds nothing yet; frames 4 and 5 wait together.
+/// Frame k has grey value k and filled the bus 7 ms before it is taken. Every third call finds
+/// nothing yet.
 dc1394error_t dc1394_capture_dequeue(dc1394camera_t*, dc1394capture_policy_t policy,
                                      dc1394video_frame_t** frame) {
   static int calls = 0;
   *frame = nullptr;
   if (policy != DC1394_CAPTURE_POLICY_POLL) return DC1394_INVALID_CAPTURE_POLICY;
   if (fault("dequeue_error") && g_taken == 3) return DC1394_IOCTL_FAILURE;
+  if (fault("bus_reset") && g_taken == 3) {
+    ++g_taken;
+    return DC1394_FAILURE;
+  }
   if (fault("unplugged") && g_taken >= 3) return DC1394_SUCCESS;
   if (++calls % 3 == 0) return DC1394_SUCCESS;
   std::memset(g_pixels, g_taken, sizeof g_pixels);
@@ -93,9 +158,8 @@ dc1394error_t dc1394_capture_dequeue(dc1394camera_t*, dc1394capture_policy_t pol
   g_frame.size[0] = kWidth;
   g_frame.size[1] = kHeight;
   g_frame.stride = kWidth;
-  g_frame.color_coding = DC1394_COLOR_CODING_MONO8;
   g_frame.data_depth = 8;
-  g_frame.frames_behind = g_taken == 4 ? 1 : 0;
+  g_frame.timestamp = now_us() - 7000;
   ++g_taken;
   ++g_out;
   *frame = &g_frame;

@@ -124,5 +124,21 @@ TEST(EncodeJpeg, RefusesWhatIsNoPicture) {
   EXPECT_THROW(encode_jpeg(cv::Mat(4, 4, CV_8UC1), 0), std::invalid_argument);
 }
 
+TEST(EncodePng, LosesNothing) {
+  cv::Mat picture(37, 53, CV_8UC1);
+  for (int v = 0; v < picture.rows; ++v) {
+    for (int u = 0; u < picture.cols; ++u) picture.at<uchar>(v, u) = uchar(7 * u + 13 * v * u);
+  }
+  const cv::Mat part = picture(cv::Rect(3, 2, 40, 30));  // rows with a gap between them
+  for (const cv::Mat& each : {picture, part}) {
+    const cv::Mat back = decode_image(encode_png(each));
+    ASSERT_EQ(back.size(), each.size());
+    ASSERT_EQ(back.type(), CV_8UC1);
+    EXPECT_EQ(cv::norm(back, each, cv::NORM_INF), 0);
+  }
+  EXPECT_THROW(encode_png(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(encode_png(cv::Mat(4, 4, CV_8UC3)), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -108,11 +108,14 @@ TEST_F(TaskFile, OpensImagesAndVideosRelativeToItself) {
 
 TEST_F(TaskFile, LeavesLiveSourcesAndTheSimulationToTheApp) {
   for (const char* source : {"camera:0", "dc1394", "dc1394:0123456789abcdef", "simulation",
-                             "http://h/v", "rtsp://h/v", "udp://h:1"}) {
+                             "http://h/v", "rtsp://h/v", "rtp://h:2", "udp://h:1"}) {
     const Experiment e = read(std::string("source: ") + source + "\n" + kOwn);
     EXPECT_EQ(e.source, source);
     EXPECT_FALSE(e.sequence.has_value());
   }
+  EXPECT_EQ(read("source: rtp:../s.sdp\n" + kOwn).source,
+            "rtp:" + (folder_.path().parent_path() / "s.sdp").string());
+  EXPECT_EQ(read("source: camera:0\ncapture: {gain: 3}\n" + kOwn).live.capture.gain, 3);
   EXPECT_THAT(error_of("source: camera:0\nrate_hz: 5\n" + kOwn), HasSubstr("rate_hz: is no key"));
 }
 

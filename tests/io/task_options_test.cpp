@@ -139,6 +139,39 @@ TEST_F(TaskOptions, ReadEveryLawAndItsNumbers) {
               HasSubstr("t.yaml:1: servo.law: is 'best'; write cur, "));
 }
 
+TEST_F(TaskOptions, PutEveryCaptureKeyInItsPlace) {
+  const Section root = load(
+      "capture: {format: yuyv, size_px: [752, 480], rate_hz: 60, exposure_s: 0.004, gain: 12,\n"
+      "  open_timeout_s: 1, stall_timeout_s: 2.5, blind_s: 0.3, give_up_s: 40, retry_s: 0.5,\n"
+      "  longest_retry_s: 6}\n");
+  const LiveOptions o = read_live_options(root);
+  EXPECT_EQ(o.capture.format, "yuyv");
+  EXPECT_EQ(o.capture.size, cv::Size(752, 480));
+  EXPECT_EQ(o.capture.rate_hz, 60);
+  EXPECT_EQ(o.capture.exposure_s, 0.004);
+  EXPECT_EQ(o.capture.gain, 12);
+  EXPECT_EQ(o.open_timeout_s, 1);
+  EXPECT_EQ(o.stall_timeout_s, 2.5);
+  EXPECT_EQ(o.blind_s, 0.3);
+  EXPECT_EQ(o.give_up_s, 40);
+  EXPECT_EQ(o.retry_s, 0.5);
+  EXPECT_EQ(o.longest_retry_s, 6);
+  EXPECT_NO_THROW(root.done());
+}
+
+TEST_F(TaskOptions, RefuseACaptureThatNoCameraHas) {
+  const auto error = [this](const std::string& keys) {
+    return error_of("capture: {" + keys + "}\n", [](const Section& root) {
+      read_live_options(root);
+      root.done();
+    });
+  };
+  EXPECT_THAT(error("size_px: [640, 0]"), HasSubstr("capture.size_px: is no image size"));
+  EXPECT_THAT(error("rate_hz: -1"), HasSubstr("rate_hz: must be positive"));
+  EXPECT_THAT(error("blind_s: 0"), HasSubstr("blind_s: must be positive"));
+  EXPECT_THAT(error("exposure: 1"), AllOf(HasSubstr("exposure"), HasSubstr("exposure_s")));
+}
+
 TEST_F(TaskOptions, NameTheSectionOfAnOptionOutOfRange) {
   EXPECT_THAT(error_of("a: 1\nservo: {gain_per_s: -1}\n", read_servo_options),
               AllOf(HasSubstr("t.yaml:2: servo: "), HasSubstr("gain_per_s")));

@@ -2,18 +2,32 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "kestrel/vision/frame.hpp"
+#include "kestrel/io/camera_device.hpp"
+#include "kestrel/io/camera_mode.hpp"
 
 namespace kestrel {
 
-/// A FireWire (IIDC) camera on libdc1394: guid in hexadecimal, empty for the first on the bus. It
-/// is set to 8-bit grey where it can (else colour, turned to grey), 640x480 before larger images,
-/// at its highest rate. next() gives the newest frame of the ring buffer, stamped with the
-/// monotonic clock when it is taken out; older ones are gaps in the index, a frame that arrived
-/// corrupt is named in skipped(). Throws std::runtime_error when there is no such camera, when the
-/// bus reports an error, and in next() after timeout_s without a frame (a camera that was
-/// unplugged is not reported by the bus: it only falls silent).
-std::unique_ptr<FrameSource> open_dc1394(const std::string& guid, double timeout_s = 2);
+/// A FireWire (IIDC) camera on libdc1394: guid in hexadecimal, empty for the first on the bus. Its
+/// formats are "mono8", "yuv422", "yuv411", "rgb8" and, of Format7 (the whole picture only),
+/// "mono8" and "raw8", whose Bayer pattern is decoded. Pictures carry the time at which the bus had
+/// filled them in (libdc1394's stamp, brought to the monotonic clock); one that is old when it is
+/// taken is lost to the next, one that arrived corrupt is damaged. next() throws when the bus
+/// reports an error; a camera that is unplugged is not reported by the bus, it only falls silent.
+/// Throws std::runtime_error when there is no such camera, no mode as settings ask for, or no
+/// bandwidth.
+std::unique_ptr<CameraDevice> open_dc1394(const std::string& guid, const CaptureSettings& settings);
+
+/// A camera on the bus.
+struct Dc1394Listing {
+  std::string guid;  // 16 hexadecimal digits
+  std::string name;  // vendor and model
+  std::vector<CameraMode> modes;
+  std::string trouble;  // why it could not be asked; empty: it could
+};
+
+/// The cameras on the FireWire bus; none where there is no bus.
+std::vector<Dc1394Listing> list_dc1394();
 
 }  // namespace kestrel

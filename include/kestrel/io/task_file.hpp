@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kestrel/geometry/pixel.hpp"
+#include "kestrel/io/live_options.hpp"
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/yaml_section.hpp"
 #include "kestrel/loop/task.hpp"
@@ -14,8 +15,8 @@ namespace kestrel {
 /// One experiment as a task file in tasks/ describes it; tasks/README.md documents every key.
 struct Experiment {
   std::filesystem::path file;
-  /// Where the frames come from, as written: "sequence:…", "images:…", "video:…", "camera:0",
-  /// "dc1394", "dc1394:…", "http://…", "rtsp://…", "udp://…" or "simulation".
+  /// Where the frames come from, as written (see parse_source); of rtp:FILE.sdp the file is made
+  /// relative to the working directory.
   std::string source;
   std::string sink;  // where the commands go, as written: "autopilot:udp://host:port",
                      // "udp://host:port" or "none"
@@ -28,6 +29,7 @@ struct Experiment {
   std::optional<std::filesystem::path> template_image;
   std::optional<std::filesystem::path> camera_file;  // absent: intrinsics given in the task
   std::optional<std::filesystem::path> truth;        // of a described sequence
+  LiveOptions live;                                  // how a live source is opened
 };
 
 /// The experiment of a task file's root section. A described sequence (source: sequence:FILE) gives

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kestrel/geometry/plane_pose.hpp"
+#include "kestrel/io/live_options.hpp"
 #include "kestrel/io/yaml_section.hpp"
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
@@ -17,5 +18,6 @@ PlanePoseOptions read_pose_options(const Section& root);  // pose:
 ServoOptions read_servo_options(const Section& root);     // servo:
 CommandLimits read_command_limits(const Section& root);   // limits: {speed, acceleration}
 LossOptions read_loss_options(const Section& root);       // loss:
+LiveOptions read_live_options(const Section& root);       // capture:
 
 }  // namespace kestrel
