@@ -25,14 +25,15 @@ std::string place_of(const Section& root, const std::string& source) {
 
 std::string read_source(const Section& root) {
   std::string source = root.text("source");
-  for (const char* start :
-       {"sequence:", "images:", "video:", "camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
+  for (const char* start : {"sequence:", "images:", "video:", "camera:", "dc1394:", "http://",
+                            "rtsp://", "udp://", "sim:"}) {
     if (begins_with(source, start)) return source;
   }
   if (source == "simulation" || source == "dc1394") return source;
-  root.fail("source", "is '" + source +
-                          "'; give sequence:FILE, images:PATTERN, video:FILE, camera:N, "
-                          "dc1394 or dc1394:GUID, a stream's address, or simulation");
+  root.fail("source",
+            "is '" + source +
+                "'; give sequence:FILE, images:PATTERN, video:FILE, camera:N, "
+                "dc1394 or dc1394:GUID, a stream's address, sim:HOST:PORT, or simulation");
 }
 
 std::string read_sink(const Section& root) {
