@@ -28,15 +28,17 @@ RecorderOptions recorder_options(const RunArguments& run, const std::filesystem:
 
 using Sections = std::vector<ReportSection> (*)(const LogFile&, const RunView&);
 
-/// Writes summary and report of a finished run of the chain.
+/// Writes summary and report of a finished run of the chain; more: sections that come last.
 void finish_run(RunRecorder& recorder, const Template& model, const Task& task, const ChainEnd& end,
-                const Summary& summary, const std::string& title, Sections sections);
+                const Summary& summary, const std::string& title, Sections sections,
+                const std::vector<ReportSection>& more = {});
 
 /// Prints the summary on stdout and where the run folder is.
 void print_result(const RunResult& result);
 
-/// Makes the command line's source the task's: sequence:FILE, images:PATTERN, video:FILE or a live
-/// camera. Template, camera and size stay the task's, but for a described sequence's rectangle.
+/// Makes the command line's source the task's: sequence:FILE, images:PATTERN, video:FILE, a live
+/// camera or a simulated one. Template, camera and size stay the task's, but for a described
+/// sequence's rectangle.
 void override_source(Experiment& experiment, const std::string& source);
 
 /// The frames of a task. Throws for a source that cannot be opened.

@@ -1,7 +1,11 @@
 #include "track_job.hpp"
 
+#include <string_view>
+
 #include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence_file.hpp"
+
+#include "simulated_camera.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -20,7 +24,7 @@ TrackJob described(const std::filesystem::path& file) {
 
 bool is_live(const std::string& input) {
   if (input == "dc1394") return true;
-  for (const char* kind : {"camera:", "dc1394:", "http://", "rtsp://", "udp://"}) {
+  for (const char* kind : {"camera:", "dc1394:", "http://", "rtsp://", "udp://", "sim:"}) {
     if (input.rfind(kind, 0) == 0) return true;
   }
   return false;
@@ -47,6 +51,10 @@ TrackJob track_job(const TrackArguments& a) {
 }
 
 std::unique_ptr<FrameSource> open_source(const TrackJob& job) {
+  constexpr std::string_view kSimulated = "sim:";
+  if (job.live.rfind(kSimulated, 0) == 0) {
+    return open_simulated_camera(job.live.substr(kSimulated.size()));
+  }
   return job.live.empty() ? open_sequence(job.sequence) : open_live(job.live);
 }
 
