@@ -58,14 +58,28 @@ struct SeedRange {
   std::int64_t last = 1;
 };
 
+/// How `simulate` meets other programs, in real time.
+struct RealTimeArguments {
+  std::uint16_t vehicle_port = 14550;      // UDP on 127.0.0.1; 0: any free one
+  std::string frames = "127.0.0.1:14570";  // where frames are served
+  std::string vehicle;                     // mavlink:udp:HOST:PORT; empty: the built-in one
+  std::vector<double> origin_ned_m;        // of the vehicle's local frame; empty: below the start
+  Autopilot autopilot = Autopilot::ArduPilot;
+  bool starts_in_air = true;  // and armed; else on the ground and not
+};
+
 struct SimulateArguments {
   std::filesystem::path task;
   std::optional<double> duration_s;
   std::optional<std::int64_t> seed;
   std::optional<SeedRange> seeds;
   std::string sink;
+  std::optional<RealTimeArguments> real_time;
   RunArguments run;
 };
+
+/// The options of the verb but for those of its run folder.
+void add_simulate_options(CLI::App& verb, const std::shared_ptr<SimulateArguments>& arguments);
 
 struct ReceiveArguments {
   std::string address = "udp://127.0.0.1:14550";

@@ -6,28 +6,26 @@
 
 #include "kestrel/io/gray_image.hpp"
 #include "kestrel/io/image_files.hpp"
-#include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence.hpp"
+#include "kestrel/io/source_address.hpp"
 
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "simulated_camera.hpp"
 
 namespace kestrel::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_live(const std::string& input) {
-  if (input == "dc1394") return true;
-  for (const char* kind : {"camera:", "dc1394:", "http://", "rtsp://", "udp://"})
-    if (input.rfind(kind, 0) == 0) return true;
-  return false;
+bool is_camera(const std::string& input) {
+  return is_source_address(input) && is_live(parse_source(input).kind);
 }
 
 /// The pictures that an input names; empty when it is a video or camera.
 std::vector<fs::path> pictures_of(const std::string& input) {
   NumberedFiles files;
-  if (is_live(input)) return {};
+  if (is_camera(input)) return {};
   const bool is_pattern = fs::path(input).filename().string().find('%') != std::string::npos;
   if (is_pattern) {
     files = files_of_pattern(input);
@@ -77,14 +75,15 @@ std::string hint(const ViewCollector& views, const Offered& offered) {
 void look_at_frames(const std::string& input, ViewCollector& views) {
   SequenceOptions recorded;
   recorded.input = input;
-  const bool live = is_live(input);
-  const auto source = live ? open_live(input) : open_sequence(recorded);
+  const bool live = is_camera(input);
+  const auto source = live ? open_camera(input) : open_sequence(recorded);
   Progress progress(source->frame_count());
   std::vector<std::string> missing;
   std::string last_hint;
   while (!interrupted()) {
     const auto frame = source->next();
     if (!frame) break;
+    if (!has_image(*frame)) continue;  // the camera is silent
     const std::string name = fmt::format("frame {}", frame->index);
     const Offered offered = views.offer(name, frame->gray);
     missing = offered.missing;

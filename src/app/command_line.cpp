@@ -1,4 +1,3 @@
-#include <charconv>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -41,7 +40,7 @@ void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
   auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
   verb->add_option("INPUT,--input", a->input,
                    "sequences/NAME.yaml, a pattern like I%04d.png, a folder, a video file, "
-                   "camera:N, dc1394:, rtsp://..., rtp:..., udp://..., http://...")
+                   "camera:N, dc1394:, rtsp://..., rtp:..., udp://..., http://..., sim:HOST:PORT")
       ->required();
   verb->add_option_function<std::string>(
       "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
@@ -73,7 +72,8 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   verb->add_option("TASK", a->task, "Task file (tasks/*.yaml)")->required();
   verb->add_option("--source,--input,--device", a->source,
                    "Frames, instead of the task's: sequence:FILE, images:PATTERN, video:FILE, "
-                   "camera:N, dc1394:GUID, rtsp://..., rtp:..., udp://..., http://...");
+                   "camera:N, dc1394:GUID, rtsp://..., rtp:..., udp://..., http://..., "
+                   "sim:HOST:PORT or sim:PATH (simulate --real-time)");
   verb->add_option("--sink", a->sink,
                    "Where commands go, instead of the task's: autopilot:udp://HOST:PORT, "
                    "udp://HOST:PORT or none");
@@ -83,31 +83,9 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   add_run_options(*verb, a->run);
 }
 
-SeedRange seed_range(const std::string& text) {
-  SeedRange range;
-  const auto* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range.first);
-  const bool has_last = first.ec == std::errc() && first.ptr != end && *first.ptr == '-';
-  const auto last = has_last ? std::from_chars(first.ptr + 1, end, range.last) : first;
-  if (!has_last || last.ec != std::errc() || last.ptr != end || range.first < 0 ||
-      range.last < range.first) {
-    throw CLI::ValidationError("--seeds", "'" + text + "': write FIRST-LAST, for instance 1-20");
-  }
-  return range;
-}
-
 void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
-  verb->add_option("TASK", a->task, "Task file with a section 'simulation'")->required();
-  verb->add_option("--duration", a->duration_s, "Longest flight, s (default: the task's)");
-  auto* seed = verb->add_option("--seed", a->seed,
-                                "Seed of start, noise, wind and sensors (default: the task's)");
-  verb->add_option_function<std::string>(
-          "--seeds", [a](const std::string& text) { a->seeds = seed_range(text); },
-          "Fly once for each seed, FIRST-LAST, and make a table")
-      ->excludes(seed);
-  verb->add_option("--sink", a->sink,
-                   "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
+  add_simulate_options(*verb, a);
   add_run_options(*verb, a->run);
 }
 

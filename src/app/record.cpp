@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence_recorder.hpp"
 
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "simulated_camera.hpp"
 #include "task_setup.hpp"
 #include "track_job.hpp"
 #include "verbs.hpp"
@@ -33,7 +33,7 @@ std::unique_ptr<FrameSource> open_source(const RecordArguments& a) {
   options.capture = a.capture;
   options.queue_pictures = a.queue;
   options.give_up_s = a.give_up_s;
-  return open_live(job.live, options);
+  return open_camera(job.live, options);
 }
 
 /// Why no further picture is wanted; empty when one is.

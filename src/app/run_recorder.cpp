@@ -21,6 +21,8 @@ const std::vector<ReportFile>& file_words() {
   static const std::vector<ReportFile> words = {
       {"run.csv", "one row a frame: what was seen, decided and sent"},
       {"timing.csv", "processing times of each frame, ms"},
+      {"wire.csv", "when each command left, and how old its frame was"},
+      {"truth.csv", "where the helicopter really was, at each frame"},
       {"run.mp4", "annotated video"},
       {"run.avi", "annotated video"},
       {"summary.json", "the table at the top, for programs"},

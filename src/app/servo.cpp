@@ -1,17 +1,41 @@
 #include "servo.hpp"
 
+#include <memory>
+
 #include "kestrel/io/camera_file.hpp"
-#include "kestrel/io/live_camera.hpp"
+#include "kestrel/io/live_source.hpp"
+#include "kestrel/io/wire_log.hpp"
 
 #include "autopilot_file.hpp"
 #include "chain.hpp"
 #include "interrupt.hpp"
-#include "simulation_file.hpp"
+#include "simulated_task.hpp"
 #include "sinks.hpp"
 #include "verbs.hpp"
 
 namespace kestrel::app {
 namespace {
+
+/// True when the task leaves the template to the simulation whose camera is looked through.
+bool learns_at_goal(const Experiment& experiment, const std::optional<Simulation>& simulation) {
+  const bool simulated = experiment.source.rfind("sim:", 0) == 0;
+  return simulated && simulation && !experiment.template_image && !experiment.template_px;
+}
+
+/// As `simulate` learns it, or from the task's picture or rectangle.
+LearnedTask learned(const Experiment& experiment, const std::optional<Simulation>& simulation,
+                    const Frame& first) {
+  const Task& task = experiment.task;
+  if (!learns_at_goal(experiment, simulation)) return {task, learn_template(experiment, first)};
+  return learned_at_goal(task,
+                         scene_of(simulation->scene, task.target_width_m, task.target_height_m));
+}
+
+/// Takes over what the sink tells of the times of its commands.
+void note_times(const Sink& sink, WireLog* log) {
+  if (log == nullptr) return;
+  for (const WireTime& time : sink.take_times()) log->write(time);
+}
 
 Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& source) {
   Summary summary;
@@ -30,7 +54,8 @@ Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& sour
 RunResult servo(const ServoArguments& a) {
   Section file = Section::load(a.task);
   Experiment experiment = read_experiment(file);
-  if (const auto section = file.child_if("simulation")) read_simulation(*section);  // not for us
+  std::optional<Simulation> simulation;  // of interest to who looks through its camera only
+  if (const auto section = file.child_if("simulation")) simulation = read_simulation(*section);
   const AutopilotOptions autopilot = read_autopilot(file);
   file.done();
   if (!a.source.empty()) override_source(experiment, a.source);
@@ -41,13 +66,18 @@ RunResult servo(const ServoArguments& a) {
   const Frame first = first_frame(*source, experiment.source);
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
-  Tracker tracker = learn_template(experiment, first);
+  LearnedTask learned_task = learned(experiment, simulation, first);
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
-  const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
+  std::unique_ptr<WireLog> times;
+  if (sink.take_times) times = std::make_unique<WireLog>(recorder.folder() / "wire.csv");
+  const auto watch = [&](const Frame&, const Step&, LogRow&) -> std::optional<std::string> {
+    note_times(sink, times.get());
+    return std::nullopt;
+  };
   const ChainEnd end = run_chain({*source,
                                   *sink.commands,
-                                  tracker,
-                                  experiment.task,
+                                  learned_task.tracker,
+                                  learned_task.task,
                                   recorder,
                                   a.pace,
                                   sink.attitude,
@@ -56,8 +86,11 @@ RunResult servo(const ServoArguments& a) {
                                  first, watch);
   RunResult result{recorder.folder(), summarise(end, sink, *source), end.broken ? 1 : 0};
   recorder.add_times(result.summary);
-  finish_run(recorder, tracker.model(), experiment.task, end, result.summary,
-             "Servo run: " + a.task.stem().string(), servo_sections);
+  note_times(sink, times.get());
+  std::vector<ReportSection> more;
+  if (times) more.push_back(wire_section(times->times()));
+  finish_run(recorder, learned_task.tracker.model(), learned_task.task, end, result.summary,
+             "Servo run: " + a.task.stem().string(), servo_sections, more);
   if (interrupted()) result.exit_code = kInterrupted;
   return result;
 }

@@ -1,5 +1,6 @@
 #include "sinks.hpp"
 
+#include <deque>
 #include <stdexcept>
 
 #include "kestrel/link/autopilot_link.hpp"
@@ -13,6 +14,42 @@ class NoSink final : public CommandSink {
   void send(const VelocityCommand&, double) noexcept override {}
   long failures() const override { return 0; }
 };
+
+/// A link that remembers when its commands left.
+class TimedLink final : public CommandSink {
+ public:
+  TimedLink(const Address& to, std::optional<double> stamp_origin_s)
+      : link_(to), stamp_origin_s_(stamp_origin_s) {}
+  void send(const VelocityCommand& command, double stamp_s) noexcept override {
+    link_.send(command, stamp_s);
+    const double sent_s = link_clock_s();
+    if (stamp_origin_s_) stamp_s += *stamp_origin_s_;
+    times_.push_back({sent_s, stamp_origin_s_ ? std::optional(stamp_s) : std::nullopt});
+    if (times_.size() > kMaxTimes) times_.pop_front();
+  }
+  long failures() const override { return link_.failures(); }
+  std::vector<WireTime> take_times() {
+    std::vector<WireTime> times(times_.begin(), times_.end());
+    times_.clear();
+    return times;
+  }
+
+ private:
+  static constexpr std::size_t kMaxTimes = 4096;  // nobody may ask
+  CommandLink link_;
+  std::optional<double> stamp_origin_s_;
+  std::deque<WireTime> times_;
+};
+
+/// Commands that rest on a frame have its capture; zeros that rest on none have not.
+std::vector<WireTime> times_of(const std::vector<SentSetpoint>& sent) {
+  std::vector<WireTime> times;
+  for (const SentSetpoint& s : sent) {
+    const bool rests = s.state == StreamState::Fresh || s.state == StreamState::Decay;
+    times.push_back({s.sent_s, rests ? std::optional(s.capture_s) : std::nullopt});
+  }
+  return times;
+}
 
 constexpr const char* kAutopilot = "autopilot:";
 constexpr const char* kUdp = "udp://";
@@ -43,7 +80,8 @@ Sink autopilot_sink(const std::string& address, const AutopilotOptions& options,
   auto link = std::make_unique<AutopilotLink>(parse_address(address), options, stamp_origin_s);
   AutopilotLink& it = *link;
   return {std::move(link), [&it](double stamp_s) { return it.attitude_at(stamp_s); },
-          [&it](Summary& summary) { add_autopilot(summary, it); }};
+          [&it](Summary& summary) { add_autopilot(summary, it); },
+          [&it] { return times_of(it.take_sent()); }};
 }
 
 [[noreturn]] void refuse(const std::string& text) {
@@ -55,9 +93,12 @@ Sink autopilot_sink(const std::string& address, const AutopilotOptions& options,
 
 Sink open_sink(const std::string& text, const AutopilotOptions& options,
                std::optional<double> stamp_origin_s) {
-  if (text.empty() || text == "none") return {std::make_unique<NoSink>(), nullptr, nullptr};
+  if (text.empty() || text == "none")
+    return {std::make_unique<NoSink>(), nullptr, nullptr, nullptr};
   if (after(text, kUdp)) {
-    return {std::make_unique<CommandLink>(parse_address(text)), nullptr, nullptr};
+    auto link = std::make_unique<TimedLink>(parse_address(text), stamp_origin_s);
+    TimedLink& it = *link;
+    return {std::move(link), nullptr, nullptr, [&it] { return it.take_times(); }};
   }
   if (const auto address = after(text, kAutopilot)) {
     return autopilot_sink(*address, options, stamp_origin_s);

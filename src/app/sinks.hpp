@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kestrel/geometry/attitude.hpp"
 #include "kestrel/io/summary.hpp"
+#include "kestrel/io/wire_log.hpp"
 #include "kestrel/link/autopilot_adapter.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"
 
@@ -20,6 +22,8 @@ struct Sink {
   std::function<std::optional<Attitude>(double stamp_s)> attitude;
   /// Adds what became of the commands to a summary; null when there is nothing to say.
   std::function<void(Summary&)> report;
+  /// When commands left since the last call; null for a sink that does not know.
+  std::function<std::vector<WireTime>()> take_times;
 };
 
 /// The sink of a task: "udp://HOST:PORT" (setpoints and nothing else), "autopilot:udp://HOST:PORT"

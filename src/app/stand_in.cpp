@@ -37,12 +37,7 @@ std::vector<ReceivedCommand> StandIn::poll(double timeout_s) {
   const double end_s = link_clock_s() + timeout_s;
   for (double now_s = link_clock_s(); now_s < end_s; now_s = link_clock_s()) {
     if (const auto datagram = socket_.receive(std::min(kStep_s, end_s - now_s))) {
-      peers_[datagram->from] = now_s;
-      if (peers_.size() > kMaxPeers) {
-        peers_.erase(
-            std::min_element(peers_.begin(), peers_.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; }));
-      }
+      peers_.heard(datagram->from, now_s);
       const auto more = received_.take(datagram->bytes, datagram->from);
       commands.insert(commands.end(), more.begin(), more.end());
       const Address from = datagram->from;
@@ -62,7 +57,7 @@ void StandIn::fly() {
 }
 
 void StandIn::send(const AutopilotModel::Frames& frames) {
-  for (const auto& [peer, heard_s] : peers_) send_to(peer, frames);
+  for (const auto& [peer, heard_s] : peers_.all()) send_to(peer, frames);
 }
 
 void StandIn::send_to(const Address& peer, const AutopilotModel::Frames& frames) {

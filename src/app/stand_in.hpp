@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +10,14 @@
 #include "kestrel/link/receiver_state.hpp"
 #include "kestrel/link/socket.hpp"
 
+#include "peers.hpp"
+
 namespace kestrel::app {
 
 /// A flight controller that is not there: the rules of an autopilot and a simple vehicle behind a
-/// UDP socket. It talks to all who have talked to it, the last kMaxPeers of them.
+/// UDP socket. It talks to all who have talked to it.
 class StandIn {
  public:
-  static constexpr std::size_t kMaxPeers = 16;
-
   /// Throws std::runtime_error when it cannot listen there.
   StandIn(const Address& at, const AutopilotModelOptions& rules);
 
@@ -46,7 +45,7 @@ class StandIn {
   AutopilotModel model_;
   KinematicVehicle vehicle_;
   ReceiverState received_;
-  std::map<Address, double> peers_;  // and when they were heard last
+  Peers peers_;
   double flown_s_;
 };
 

@@ -8,11 +8,12 @@
 
 #include "kestrel/io/camera_file.hpp"
 #include "kestrel/io/gray_image.hpp"
-#include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence.hpp"
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/source_address.hpp"
 #include "kestrel/io/text_file.hpp"
+
+#include "simulated_camera.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -38,7 +39,8 @@ RecorderOptions recorder_options(const RunArguments& run, const std::filesystem:
 }
 
 void finish_run(RunRecorder& recorder, const Template& model, const Task& task, const ChainEnd& end,
-                const Summary& summary, const std::string& title, Sections sections) {
+                const Summary& summary, const std::string& title, Sections sections,
+                const std::vector<ReportSection>& more) {
   RunView view;
   view.image_width = task.camera.parameters().width;
   view.image_height = task.camera.parameters().height;
@@ -54,6 +56,7 @@ void finish_run(RunRecorder& recorder, const Template& model, const Task& task, 
   if (end.broken) report.warnings.insert(report.warnings.begin(), end.reason);
   report.summary = summary;
   report.sections = sections(read_log(recorder.folder() / "run.csv"), view);
+  report.sections.insert(report.sections.end(), more.begin(), more.end());
   recorder.finish(std::move(report));
 }
 
@@ -87,7 +90,7 @@ std::unique_ptr<FrameSource> open_source(const Experiment& experiment) {
     throw FileError(experiment.file, 0, "source",
                     "is the simulation; fly it with 'kestrel simulate', or give --source");
   }
-  return open_live(experiment.source, experiment.live);
+  return open_camera(experiment.source, experiment.live);
 }
 
 void add_source(Summary& summary, const FrameSource& source) {

@@ -28,9 +28,10 @@ RecorderOptions recorder_options(const RunArguments& run, const std::filesystem:
 
 using Sections = std::vector<ReportSection> (*)(const LogFile&, const RunView&);
 
-/// Writes summary and report of a finished run of the chain.
+/// Writes summary and report of a finished run of the chain; more: sections that come last.
 void finish_run(RunRecorder& recorder, const Template& model, const Task& task, const ChainEnd& end,
-                const Summary& summary, const std::string& title, Sections sections);
+                const Summary& summary, const std::string& title, Sections sections,
+                const std::vector<ReportSection>& more = {});
 
 /// Prints the summary on stdout and where the run folder is.
 void print_result(const RunResult& result);

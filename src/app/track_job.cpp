@@ -1,8 +1,9 @@
 #include "track_job.hpp"
 
-#include "kestrel/io/live_camera.hpp"
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/source_address.hpp"
+
+#include "simulated_camera.hpp"
 
 namespace kestrel::app {
 namespace {
@@ -61,7 +62,7 @@ TrackJob track_job(const TrackArguments& a) {
 }
 
 std::unique_ptr<FrameSource> open_source(const TrackJob& job) {
-  return job.live.empty() ? open_sequence(job.sequence) : open_live(job.live);
+  return job.live.empty() ? open_sequence(job.sequence) : open_camera(job.live);
 }
 
 std::filesystem::path default_folder(const std::string& input) {

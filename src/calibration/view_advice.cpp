@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include "kestrel/geometry/homography.hpp"

@@ -29,7 +29,7 @@ OpenCamera opener(const SourceAddress& source, const LiveOptions& options) {
 
 std::unique_ptr<LiveSource> open_live(const std::string& address, const LiveOptions& options) {
   const SourceAddress source = parse_source(address);
-  if (!is_live(source.kind)) {
+  if (!is_live(source.kind) || source.kind == SourceKind::Simulated) {
     throw std::invalid_argument("'" + address +
                                 "' is no live camera; give camera:N, dc1394:GUID, or an address "
                                 "that begins with rtsp://, rtp:, udp:// or http://");

@@ -26,7 +26,7 @@ struct Scheme {
 };
 
 /// Every scheme there is: a new source is one line here.
-constexpr std::array<Scheme, 11> kSchemes = {{
+constexpr std::array<Scheme, 12> kSchemes = {{
     {"sequence:", SourceKind::Sequence, Place::Needed, "sequence:FILE"},
     {"images:", SourceKind::Images, Place::Needed, "images:PATTERN"},
     {"video:", SourceKind::Video, Place::Needed, "video:FILE"},
@@ -37,6 +37,7 @@ constexpr std::array<Scheme, 11> kSchemes = {{
     {"udp://", SourceKind::Network, Place::Address, "udp://..."},
     {"http://", SourceKind::Network, Place::Address, "http://..."},
     {"https://", SourceKind::Network, Place::Address, "https://..."},
+    {"sim:", SourceKind::Simulated, Place::Needed, "sim:HOST:PORT (or sim:PATH)"},
     {"simulation", SourceKind::Simulation, Place::None, "simulation"},
 }};
 
@@ -103,7 +104,8 @@ bool is_source_address(const std::string& text) {
 }
 
 bool is_live(SourceKind kind) {
-  return kind == SourceKind::V4l2 || kind == SourceKind::Dc1394 || kind == SourceKind::Network;
+  return kind == SourceKind::V4l2 || kind == SourceKind::Dc1394 || kind == SourceKind::Network ||
+         kind == SourceKind::Simulated;
 }
 
 }  // namespace kestrel

@@ -8,6 +8,7 @@
 namespace kestrel {
 namespace {
 
+constexpr std::size_t kMaxSent = 4096;    // more than three minutes at 20 Hz
 constexpr double kLongestFarewell_s = 5;  // an autopilot that never answers is left after this
 
 bool has_setpoint(const mavlink::EncodedFrame& frame) {
@@ -103,14 +104,16 @@ void AutopilotLink::run_until_released() {
     const double now_s = link_clock_s();
     if (stopping_ && !leave_s) leave_s = now_s + kLongestFarewell_s;
     AutopilotAdapter::Frames due;
+    std::optional<StreamSetpoint> setpoint;
     bool is_over = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (leave_s) adapter_.release(now_s);
       due = adapter_.tick(now_s);
+      setpoint = adapter_.ticked_setpoint();
       is_over = leave_s && (adapter_.released() || now_s > *leave_s);
     }
-    transmit(due);
+    if (transmit(due) && setpoint) note_sent(*setpoint);
     if (is_over) return;
     next_s = std::max(next_s + period_s_, now_s);
     listen(next_s);
@@ -135,11 +138,29 @@ void AutopilotLink::listen(double until_s) {
   }
 }
 
-void AutopilotLink::transmit(const AutopilotAdapter::Frames& frames) noexcept {
+void AutopilotLink::note_sent(const StreamSetpoint& setpoint) {
+  const double sent_s = link_clock_s();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sent_.push_back({sent_s, setpoint.stamp_s, setpoint.state});
+  if (sent_.size() > kMaxSent) sent_.pop_front();
+}
+
+std::vector<SentSetpoint> AutopilotLink::take_sent() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<SentSetpoint> sent(sent_.begin(), sent_.end());
+  sent_.clear();
+  return sent;
+}
+
+/// True when the network took all of them.
+bool AutopilotLink::transmit(const AutopilotAdapter::Frames& frames) noexcept {
+  bool all = true;
   for (const mavlink::EncodedFrame& frame : frames) {
     const Sent sent = socket_.send(frame.bytes());
+    all = all && sent == Sent::Yes;
     if (sent != Sent::Yes && has_setpoint(frame)) ++failures_;
   }
+  return all;
 }
 
 }  // namespace kestrel

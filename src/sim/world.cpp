@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "random.hpp"
-
 namespace kestrel {
 namespace {
 
@@ -44,22 +42,6 @@ HelicopterState WorldOptions::default_start() {
   return state;
 }
 
-void ImagingOptions::check() const {
-  const auto require = [](bool good, const char* what) {
-    if (!good) throw std::invalid_argument(what);
-  };
-  RenderOptions render;
-  render.noise_grey = noise_grey;
-  render.vignetting = vignetting;
-  render.check();
-  shutter.check();
-  vibration.check();
-  require(gain_drift >= 0 && gain_drift < 1, "gain_drift: must be within [0, 1)");
-  require(std::isfinite(gain_period_s) && gain_period_s > 0, "gain_period_s: must be positive");
-  require(std::isfinite(latency_s) && latency_s >= 0, "latency_s: must not be negative");
-  require(drop_share >= 0 && drop_share < 1, "drop_share: must be within [0, 1)");
-}
-
 void WorldOptions::check() const {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::invalid_argument(what);
@@ -77,7 +59,7 @@ void WorldOptions::check() const {
 
 World::World(const Scene& scene, const WorldOptions& options)
     : options_(checked(options)),
-      renderer_(scene, options.camera),
+      camera_(scene, {options.camera, options.body_from_camera, options.imaging, options.seed}),
       vehicle_(options.vehicle, options.start, options.seed) {
   if (scene.planes.empty())
     return;  // nothing to look for: the target counts as at the wall's place
@@ -90,33 +72,14 @@ std::optional<Frame> World::next() {
     if (options_.frames && next_frame_ >= *options_.frames) return std::nullopt;
     if (next_frame_ > 0) fly_one_period();
     ++next_frame_;
-    if (!is_dropped(next_frame_ - 1)) return look();
+    if (!camera_.drops(next_frame_ - 1)) return look();
   }
 }
 
 Frame World::look() {
-  const ImagingOptions& imaging = options_.imaging;
-  Frame frame;
-  frame.index = next_frame_ - 1;
-  frame.stamp_s = now_s();
-  RenderOptions render;
-  render.noise_grey = imaging.noise_grey;
-  render.seed = options_.seed;
-  render.frame = frame.index;
-  render.vignetting = imaging.vignetting;
-  render.gain = 1 + imaging.gain_drift * std::sin(2 * M_PI * frame.stamp_s / imaging.gain_period_s);
-  frame.gray =
-      renderer_.expose(shot({vehicle_.motion(), options_.body_from_camera, imaging.vibration},
-                            frame.stamp_s, options_.camera, imaging.shutter),
-                       render);
+  Frame frame = camera_.look(vehicle_.motion(), next_frame_ - 1, now_s());
   frame.attitude = vehicle_.measured_attitude();
   return frame;
-}
-
-bool World::is_dropped(std::int64_t frame) const {
-  if (options_.imaging.drop_share == 0 || frame == 0) return false;  // the first frame is there
-  sim_detail::RandomStream random(sim_detail::derived_seed(~options_.seed, std::uint64_t(frame)));
-  return random.uniform(0, 1) < options_.imaging.drop_share;
 }
 
 void World::fly_one_period() {

@@ -241,6 +241,43 @@ TEST_P(AdapterWithBoth, KnowsTheClockAndTheAttitudeAtTheTimeOfAnImage) {
   EXPECT_GT(status.telemetry.attitudes, 200);
 }
 
+// Who only looks on must not disturb who flies: not even PX4, which wants a stream before OFFBOARD.
+TEST_P(AdapterWithBoth, AnObserverKnowsTheVehicleAndNeverFliesIt) {
+  AutopilotOptions options;
+  options.part = AdapterPart::Observer;
+  options.component_id = 100;
+  AdapterFlight flight(options, rules_of(GetParam()));
+  flight.fly(3);
+  flight.model.pilot_chooses(profile_of(GetParam()).control_mode, flight.now_s);  // somebody flies
+  flight.fly(0.5);
+  EXPECT_TRUE(flight.adapter.attitude_at(flight.now_s - 0.05));
+  EXPECT_TRUE(flight.adapter.motion_at(flight.now_s - 0.15));
+  EXPECT_TRUE(flight.adapter.status(flight.now_s).clock);
+  EXPECT_TRUE(flight.sent<mavlink::SetPositionTarget>().empty());
+  for (const auto& command : flight.sent<mavlink::CommandLong>()) {
+    EXPECT_EQ(command.command, kCommandInterval);
+  }
+  flight.adapter.release(flight.now_s);
+  EXPECT_TRUE(flight.adapter.released());
+}
+
+TEST_P(AdapterWithBoth, TheSetpointOfATickIsTold) {
+  AdapterFlight flight = in_control();
+  const std::size_t before = flight.sent<mavlink::SetPositionTarget>().size();
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    flight.step();
+    const auto& setpoint = flight.adapter.ticked_setpoint();
+    if (!setpoint) continue;
+    ++told;
+    EXPECT_EQ(setpoint->state, StreamState::Fresh);
+    EXPECT_GE(flight.now_s - setpoint->stamp_s, 0.03 - 1e-9);  // decided 30 ms after the capture
+    EXPECT_LE(flight.now_s - setpoint->stamp_s, 0.03 + 0.05);  // and a frame is 33 ms
+  }
+  EXPECT_NEAR(told, 20, 1);  // 20 Hz for a second
+  EXPECT_NEAR(double(flight.sent<mavlink::SetPositionTarget>().size() - before), told, 2);
+}
+
 TEST_P(AdapterWithBoth, AnswersQuestionsAboutItsClock) {
   AutopilotAdapter adapter;
   const auto question = mavlink::encode(mavlink::TimeSync{0, 99, 0, 0}, {255, 190, 0});

@@ -113,6 +113,15 @@ TEST(AutopilotLink, FliesAnAutopilotBehindASocketAndGivesItBack) {
   EXPECT_EQ(link.status().control, HandshakeState::InControl);
   EXPECT_TRUE(until([&] { return link.attitude_at(link_clock_s() - 0.02).has_value(); }, frame));
   EXPECT_TRUE(until([&] { return link.status().clock.has_value(); }, frame));
+  const std::vector<SentSetpoint> sent = link.take_sent();
+  ASSERT_GT(sent.size(), 3u);
+  EXPECT_EQ(sent.back().state, StreamState::Fresh);
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_GE(sent[i].sent_s, sent[i].capture_s);
+    if (i > 0) {
+      EXPECT_GT(sent[i].sent_s, sent[i - 1].sent_s);
+    }
+  }
   link.stop();
   EXPECT_TRUE(autopilot.ends_at_zero());
   const long setpoints = autopilot.setpoints();

@@ -12,6 +12,7 @@ enum class SourceKind {
   V4l2,        // camera:N or camera:/dev/..., USB and built-in cameras
   Dc1394,      // dc1394:GUID, or dc1394 for the first one: FireWire
   Network,     // rtsp://, rtp:, udp://, http://, https://
+  Simulated,   // sim:HOST:PORT or sim:PATH, frames of another program (link/frame_header)
   Simulation,  // simulation: the built-in world
 };
 

@@ -14,7 +14,15 @@
 
 namespace kestrel {
 
+/// What the adapter is there for.
+enum class AdapterPart {
+  Pilot,     // decides and flies
+  Observer,  // listens: asks for telemetry and the time, never sends a setpoint, a mode or a
+             // landing
+};
+
 struct AutopilotOptions {
+  AdapterPart part = AdapterPart::Pilot;
   double rate_hz = 20;       // of the setpoints, whatever the frame rate; 10 to 50
   double attitude_hz = 50;   // asked of the vehicle
   double position_hz = 10;   // asked of the vehicle
@@ -75,6 +83,9 @@ class AutopilotAdapter {
   /// What is due: at least rate_hz times a second.
   Frames tick(double now_s);
 
+  /// The setpoint among what the last tick gave, if there was one.
+  const std::optional<StreamSetpoint>& ticked_setpoint() const { return ticked_; }
+
   /// A human asks for control, or for the ground.
   void request_control() { handshake_.request_control(); }
   void request_landing() { handshake_.request_landing(); }
@@ -101,6 +112,7 @@ class AutopilotAdapter {
   void send_heartbeat(double now_s, Frames& due);
   void send_questions(double now_s, Frames& due);
   void send_commands(double now_s, Frames& due);
+  void send_handshake(double now_s, Frames& due);
   std::optional<StreamSetpoint> setpoint(double now_s);
   mavlink::EncodedFrame framed(const mavlink::Message& message);
   Recipient vehicle() const;
@@ -118,8 +130,8 @@ class AutopilotAdapter {
   std::optional<double> next_question_s_;
   std::optional<double> zeros_until_s_;  // a farewell
   std::optional<double> release_s_;      // when control is to be given back
-  bool streamed_ = false;                // the last tick sent commands
-  int answered_ = 0;                     // questions about the clock
+  std::optional<StreamSetpoint> ticked_;
+  int answered_ = 0;  // questions about the clock
   std::uint8_t sequence_ = 0;
   AdapterCounts counts_;
 };

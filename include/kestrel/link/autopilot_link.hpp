@@ -1,9 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "kestrel/link/address.hpp"
 #include "kestrel/link/autopilot_adapter.hpp"
@@ -14,6 +16,13 @@ namespace kestrel {
 
 /// Seconds of the machine's monotonic clock: the clock of AutopilotLink and of what it sends.
 double link_clock_s();
+
+/// A setpoint that left, and what it rested on. Times are of link_clock_s().
+struct SentSetpoint {
+  double sent_s = 0;     // when the network had it
+  double capture_s = 0;  // of its frame; of zeros that rest on none: when they were decided
+  StreamState state = StreamState::Waiting;
+};
 
 /// A sink that flies a real autopilot: an AutopilotAdapter with a socket, a clock and a thread of
 /// its own, so that the setpoints keep their rate whatever the frames do. The heartbeat follows the
@@ -57,6 +66,10 @@ class AutopilotLink final : public CommandSink {
 
   AdapterStatus status() const;
 
+  /// The setpoints that the network took since the last call; the oldest are forgotten when nobody
+  /// asks for long.
+  std::vector<SentSetpoint> take_sent();
+
   /// This end.
   const Address& local() const { return socket_.local(); }
 
@@ -64,7 +77,8 @@ class AutopilotLink final : public CommandSink {
   void run() noexcept;
   void run_until_released();
   void listen(double until_s);
-  void transmit(const AutopilotAdapter::Frames& frames) noexcept;
+  bool transmit(const AutopilotAdapter::Frames& frames) noexcept;
+  void note_sent(const StreamSetpoint& setpoint);
   double capture_s(double stamp_s, double now_s);
 
   const double period_s_;
@@ -76,6 +90,7 @@ class AutopilotLink final : public CommandSink {
 
   mutable std::mutex mutex_;  // never held while the network is asked for anything
   AutopilotAdapter adapter_;
+  std::deque<SentSetpoint> sent_;
   std::atomic<long> failures_{0};
   std::atomic<bool> stopping_{false};
   std::thread thread_;

@@ -9,11 +9,9 @@
 
 #include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/transform.hpp"
-#include "kestrel/sim/render.hpp"
+#include "kestrel/sim/onboard_camera.hpp"
 #include "kestrel/sim/scene.hpp"
-#include "kestrel/sim/shutter.hpp"
 #include "kestrel/sim/vehicle.hpp"
-#include "kestrel/sim/vibration.hpp"
 #include "kestrel/vehicle/velocity_command.hpp"
 #include "kestrel/vision/frame.hpp"
 
@@ -25,21 +23,6 @@ Camera default_camera();
 
 /// A camera at the helicopter's origin that looks ahead: x of Camera to the right, y down.
 Mount forward_mount();
-
-/// What the camera and its electronics add.
-struct ImagingOptions {
-  double noise_grey = 0;  // sensor noise, standard deviation
-  double vignetting = 0;  // share of the light missing in the corners
-  double gain_drift = 0;  // amplitude of a slow sine of all light, share
-  double gain_period_s = 20;
-  ShutterOptions shutter;
-  VibrationOptions vibration;
-  double latency_s = 0;   // from capture until a command decided on the frame is obeyed
-  double drop_share = 0;  // frames that never arrive
-
-  /// Throws std::invalid_argument that names the first option out of range.
-  void check() const;
-};
 
 /// What flies where, and how it looks.
 struct WorldOptions {
@@ -100,11 +83,10 @@ class World final : public FrameSource, public CommandSink {
   double now_s() const { return stamp_s(std::max<std::int64_t>(next_frame_ - 1, 0)); }
   void fly_one_period();
   void fly(double from_s, double duration_s);
-  bool is_dropped(std::int64_t frame) const;
   Frame look();
 
   WorldOptions options_;
-  Renderer renderer_;
+  OnboardCamera camera_;
   TexturedPlane target_;  // without its picture
   Vehicle vehicle_;
   std::int64_t next_frame_ = 0;

@@ -23,6 +23,8 @@ bool is_due(std::optional<double>& next_s, double period_s, double now_s) {
 
 AutopilotAdapter::Frames AutopilotAdapter::tick(double now_s) {
   Frames due;
+  ticked_.reset();
+  if (options_.part == AdapterPart::Pilot) send_handshake(now_s, due);
   send_commands(now_s, due);
   send_setpoint(now_s, due);
   send_heartbeat(now_s, due);
@@ -30,7 +32,7 @@ AutopilotAdapter::Frames AutopilotAdapter::tick(double now_s) {
   return due;
 }
 
-void AutopilotAdapter::send_commands(double now_s, Frames& due) {
+void AutopilotAdapter::send_handshake(double now_s, Frames& due) {
   if (release_s_ && now_s >= *release_s_) {
     zeros_until_s_.reset();
     if (handshake_.state() != HandshakeState::GivingBack &&
@@ -45,6 +47,9 @@ void AutopilotAdapter::send_commands(double now_s, Frames& due) {
   }
   const bool lost = handshake_.state() == HandshakeState::Unseen && before == StreamWish::Commands;
   if (lost && !zeros_until_s_) zeros_until_s_ = now_s + options_.farewell_s;
+}
+
+void AutopilotAdapter::send_commands(double now_s, Frames& due) {
   while (!intervals_.empty()) {
     if (const auto command = intervals_.front().due(now_s)) {
       due.push_back(framed(*command));
@@ -71,12 +76,14 @@ std::optional<StreamSetpoint> AutopilotAdapter::setpoint(double now_s) {
 }
 
 void AutopilotAdapter::send_setpoint(double now_s, Frames& due) {
+  if (options_.part == AdapterPart::Observer) return;
   if (!is_due(next_setpoint_s_, 1 / options_.rate_hz, now_s)) return;
   const std::optional<StreamSetpoint> wanted = setpoint(now_s);
   if (!wanted) return;
   const mavlink::SetPositionTarget message =
       velocity_setpoint(wanted->command, time_boot_ms(wanted->stamp_s), vehicle());
   ++counts_.setpoints;
+  ticked_ = wanted;
   if (wanted->command.vector().isZero(0)) ++counts_.zeros;
   due.push_back(framed(message));
 }
