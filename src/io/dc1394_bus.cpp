@@ -50,8 +50,7 @@ std::optional<Mode> usual_mode(dc1394camera_t& camera, dc1394video_mode_t id) {
   std::uint32_t height = 0;
   dc1394color_coding_t coding{};
   const bool known =
-      dc1394_get_image_size_from_video_mode(&camera, id, &width, &height) ==
-          DC1394_SUCCESS &&
+      dc1394_get_image_size_from_video_mode(&camera, id, &width, &height) == DC1394_SUCCESS &&
       dc1394_get_color_coding_from_video_mode(&camera, id, &coding) == DC1394_SUCCESS;
   if (!known || name_of(coding).empty()) return std::nullopt;
   return Mode{{name_of(coding), {int(width), int(height)}, rates_of(camera, id)}, id, coding};
