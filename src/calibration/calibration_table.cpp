@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include "kestrel/eval/table.hpp"
 #include "kestrel/geometry/nearest_visp_camera.hpp"
 

@@ -111,6 +111,7 @@ void LiveSource::Reader::keep(Picture picture) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     status_.lost += picture.lost;
+    status_.clock = camera_->clock();  // a camera may learn from its pictures what they are worth
     if (fault.empty()) {
       status_.longest_silence_s = std::max(status_.longest_silence_s, now_s - last_whole_s_);
       ++status_.captured;

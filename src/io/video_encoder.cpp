@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTicks_Hz = 90000;  // of MPEG: any usual rate is a whole number of them
+constexpr int kTicks_hz = 90000;  // of MPEG: any usual rate is a whole number of them
 
 const AVCodec* encoder_of(VideoKind kind) {
   return avcodec_find_encoder(kind == VideoKind::H264 ? AV_CODEC_ID_H264 : AV_CODEC_ID_MJPEG);
@@ -50,7 +50,7 @@ libav::Codec open_encoder(VideoKind kind, const cv::Size& size, double frames_pe
   constexpr int kFinestRate = 100000;  // the largest denominator of a rate
   codec->framerate = av_d2q(frames_per_s, kFinestRate);
   codec->time_base =
-      times == VideoTimes::Steady ? av_inv_q(codec->framerate) : AVRational{1, kTicks_Hz};
+      times == VideoTimes::Steady ? av_inv_q(codec->framerate) : AVRational{1, kTicks_hz};
   codec->width = size.width;
   codec->height = size.height;
   if (wants_global_header) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;

@@ -104,8 +104,9 @@ TEST(Record, KeepsWhatIsThereOnCtrlC) {
     const bool is_folder = fs::path(output).extension().empty();
     const auto grown = [&] {
       std::error_code none;
-      return is_folder ? fs::exists(folder / "out/000010.png")
-                       : fs::file_size(folder / "out.csv", none) > 150;
+      return is_folder
+                 ? fs::exists(folder / "out/000010.png")
+                 : fs::exists(folder / "out.csv") && fs::file_size(folder / "out.csv", none) > 150;
     };
     for (int k = 0; k < 3000 && !grown(); ++k) usleep(20000);
     record.signal(SIGINT);

@@ -11,20 +11,9 @@ namespace {
 
 using test::CameraScript;
 using test::message_of;
+using test::quick;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-/// Short times, so that the tests are; their order is that of the defaults.
-LiveOptions quick() {
-  LiveOptions options;
-  options.open_timeout_s = 0.3;
-  options.stall_timeout_s = 20;
-  options.blind_s = 0.03;
-  options.give_up_s = 20;
-  options.retry_s = 0.01;
-  options.longest_retry_s = 0.02;
-  return options;
-}
 
 LiveSource source_of(CameraScript& script, const LiveOptions& options = quick()) {
   return {"camera:x", test::opener(script), options, FirstOpening::Once};
@@ -68,7 +57,6 @@ TEST(LiveSource, GivesTheLatestPictureAndCountsTheOthersAsGaps) {
   const LiveStatus status = source.status();
   EXPECT_GT(status.dropped, 3);
   EXPECT_EQ(status.connections, 1);
-  EXPECT_EQ(status.lost, 0);
   EXPECT_EQ(status.clock, CaptureClock::Driver);
   EXPECT_EQ(status.trouble, "");
   EXPECT_TRUE(source.skipped().empty());
@@ -94,7 +82,6 @@ TEST(LiveSource, TellsTheLoopThatItIsBlindAndConnectsAgain) {
   EXPECT_GT(again.stamp_s, stamp_s);
   EXPECT_EQ(source.status().connections, 2);
   EXPECT_GT(source.status().longest_silence_s, 0.1);  // two frames without an image
-  EXPECT_EQ(source.status().trouble, "");
   ASSERT_EQ(source.skipped().size(), 1u);
   EXPECT_EQ(source.skipped()[0], "scripted: unplugged; connecting again");
 }
@@ -202,10 +189,8 @@ TEST(LiveSource, TheFirstFrameHasAnImageOrThereIsNone) {
 TEST(LiveSource, IsKnownByItsStamps) {
   CameraScript script;
   const LiveSource source = source_of(script);
-  const FrameSource& any = source;
-  EXPECT_EQ(stamp_origin_s(any), source.stamp_origin_s());
-  EXPECT_TRUE(live_status(any));
-  EXPECT_FALSE(source.frame_count());
+  EXPECT_EQ(stamp_origin_s(source), source.stamp_origin_s());
+  EXPECT_TRUE(live_status(source));
   LiveOptions wrong = quick();
   wrong.blind_s = 0;
   EXPECT_THROW(source_of(script, wrong), std::invalid_argument);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "kestrel/io/camera_device.hpp"
+#include "kestrel/io/live_options.hpp"
 
 namespace kestrel::test {
 
@@ -49,6 +50,18 @@ class ScriptedCamera : public CameraDevice {
 
 inline OpenCamera opener(CameraScript& script) {
   return [&script](const StopAsked&, double) { return std::make_unique<ScriptedCamera>(script); };
+}
+
+/// Short times, so that the tests are; their order is that of the defaults.
+inline LiveOptions quick() {
+  LiveOptions options;
+  options.open_timeout_s = 0.3;
+  options.stall_timeout_s = 20;
+  options.blind_s = 0.03;
+  options.give_up_s = 20;
+  options.retry_s = 0.01;
+  options.longest_retry_s = 0.02;
+  return options;
 }
 
 }  // namespace kestrel::test
