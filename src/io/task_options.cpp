@@ -26,14 +26,16 @@ std::uint64_t seed(const Section& section, std::uint64_t otherwise) {
   return std::uint64_t(value);
 }
 
-SiftOptions read_sift(const Section& s) {
-  SiftOptions o;
+/// The keys that cv::SIFT and Kestrel's have in common.
+template <class Options>
+Options read_sift(const Section& s) {
+  Options o;
   o.octave_layers = s.whole("octave_layers", o.octave_layers);
   o.contrast_threshold = s.number("contrast_threshold", o.contrast_threshold);
   o.edge_threshold = s.number("edge_threshold", o.edge_threshold);
   o.sigma = s.number("sigma_px", o.sigma);
   o.max_keypoints = s.whole("max_keypoints", o.max_keypoints);
-  return checked(s, o);
+  return o;
 }
 
 MatchOptions read_match(const Section& s) {
@@ -76,11 +78,7 @@ DetectOptions read_detect(const Section& s) {
   DetectOptions o;
   o.source = s.choice("source", words(kSiftSources), o.source);
   if (const auto sift = s.child_if("sift")) {
-    o.sift.octave_layers = sift->whole("octave_layers", o.sift.octave_layers);
-    o.sift.contrast_threshold = sift->number("contrast_threshold", o.sift.contrast_threshold);
-    o.sift.edge_threshold = sift->number("edge_threshold", o.sift.edge_threshold);
-    o.sift.sigma = sift->number("sigma_px", o.sift.sigma);
-    o.sift.max_keypoints = sift->whole("max_keypoints", o.sift.max_keypoints);
+    o.sift = read_sift<FastSiftOptions>(*sift);
     o.sift.is_doubled = sift->flag("doubled", o.sift.is_doubled);
   }
   if (const auto match = s.child_if("match")) {
@@ -156,7 +154,7 @@ TrackOptions read_track_options(const Section& root) {
   o.coast_s = s->number("coast_s", o.coast_s);
   o.weak_share = s->number("weak_share", o.weak_share);
   o.weak_frames = s->whole("weak_frames", o.weak_frames);
-  if (const auto sift = s->child_if("sift")) o.sift = read_sift(*sift);
+  if (const auto sift = s->child_if("sift")) o.sift = checked(*sift, read_sift<SiftOptions>(*sift));
   if (const auto match = s->child_if("match")) o.match = read_match(*match);
   if (const auto ransac = s->child_if("ransac")) o.ransac = read_ransac(*ransac);
   if (const auto outline = s->child_if("outline")) o.outline = read_outline(*outline);

@@ -12,34 +12,19 @@
 
 #include "kestrel/vision/homography_step.hpp"
 
+#include "support/pixel_pairs.hpp"
 #include "support/random.hpp"
 #include "support/rendered_view.hpp"
 
 namespace kestrel {
 namespace {
 
-constexpr double kWidth = 160;
-constexpr double kHeight = 120;
+constexpr double kWidth = test::kGridWidth;
+constexpr double kHeight = test::kGridHeight;
 using Corners = Eigen::Matrix<double, 8, 1>;
 
-std::vector<PixelPair> grid(const Homography& H, double from, double to) {
-  std::vector<PixelPair> pairs;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 5; ++j) {
-      const Pixel p{(from + (to - from) * i / 5) * kWidth, (from + (to - from) * j / 4) * kHeight};
-      pairs.push_back({p, H * p});
-    }
-  }
-  return pairs;
-}
-
-std::vector<PixelPair> noisy(std::vector<PixelPair> pairs, double sigma, test::Random& random) {
-  for (PixelPair& pair : pairs) {
-    pair.in_image.u += sigma * random.normal();
-    pair.in_image.v += sigma * random.normal();
-  }
-  return pairs;
-}
+using test::grid;
+using test::noisy;
 
 /// The least-squares fit of reprojection, from near it.
 Homography fitted(const Homography& near, const std::vector<PixelPair>& pairs) {

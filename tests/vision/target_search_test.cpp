@@ -145,6 +145,7 @@ TEST(TargetSearch, HoldsWhatIsOutOfFocusAgainstItsLike) {
     for (std::size_t i = 0; i < 4; ++i) sum += distance(at[i], to[i]) / 4;
     return sum;
   };
+  EXPECT_EQ(seen.stage, TrackStage::Aligned);
   EXPECT_LT(3 * off_px(seen.at->image_from_template), off_px(alone->image_from_template));
   EXPECT_LT(seen.at->corner_covariance.trace(), alone->corner_covariance.trace() / 4);
 }
