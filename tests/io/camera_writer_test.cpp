@@ -1,6 +1,6 @@
 #include "kestrel/io/camera_writer.hpp"
 
-#include <cmath>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <visp3/core/vpMeterPixelConversion.h>
 #include <visp3/core/vpXmlParserCamera.h>
 
-#include <opencv2/core/persistence.hpp>
+#include <opencv2/core.hpp>
 
 #include "kestrel/geometry/nearest_visp_camera.hpp"
 #include "kestrel/io/camera_file.hpp"
