@@ -4,77 +4,13 @@
 #include <map>
 #include <vector>
 
-#include "kestrel/io/yaml_section.hpp"
-
+#include "opencv_camera.hpp"
 #include "xml_file.hpp"
 
 namespace kestrel {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Camera's constructor with its complaint turned into one about the file.
-Camera camera_of(const CameraParameters& parameters, const fs::path& file, int line) {
-  try {
-    return Camera(parameters);
-  } catch (const std::invalid_argument& error) {
-    throw FileError(file, line, "", std::string(error.what()) + "; calibrate the camera again");
-  }
-}
-
-/// Parameters from OpenCV's nine numbers of camera_matrix and its distortion coefficients.
-CameraParameters opencv_parameters(const std::vector<double>& K, const std::vector<double>& lens) {
-  CameraParameters p;
-  p.px = K[0];
-  p.py = K[4];
-  p.u0 = K[2];
-  p.v0 = K[5];
-  const bool straight = std::all_of(lens.begin(), lens.end(), [](double d) { return d == 0; });
-  p.lens = straight ? Lens::Pinhole : Lens::PlumbBob;
-  std::copy(lens.begin(), lens.end(), p.distortion.begin());
-  return p;
-}
-
-std::string matrix_fault(const std::vector<double>& K) {
-  if (K.size() != 9) return "has " + std::to_string(K.size()) + " numbers; give the 9 of a matrix";
-  const bool upper = K[3] == 0 && K[6] == 0 && K[7] == 0 && K[8] == 1;
-  if (!upper || K[1] != 0) return "is no matrix [fx 0 cx; 0 fy cy; 0 0 1]; check the order (rows)";
-  return "";
-}
-
-std::string distortion_fault(std::vector<double>& lens) {
-  while (lens.size() > 5 && lens.back() == 0) lens.pop_back();
-  if (lens.size() == 4 || lens.size() == 5 || lens.empty()) return "";
-  return "has " + std::to_string(lens.size()) +
-         " coefficients; calibrate with the 4 or 5 of k1 k2 p1 p2 k3 (plumb_bob)";
-}
-
-std::vector<double> yaml_matrix(const Section& root, const std::string& key) {
-  return root.child(key).numbers("data");
-}
-
-Camera load_yaml(const fs::path& file, const std::optional<ImageSize>& size) {
-  const Section root = Section::load(file);
-  if (!root.has("camera_matrix")) {
-    root.fail("camera_matrix",
-              "is missing; give a camera as OpenCV or ROS write it, or a ViSP .xml file");
-  }
-  const std::string model = root.text("distortion_model", "plumb_bob");
-  if (model != "plumb_bob") {
-    root.fail("distortion_model", "is '" + model + "', which is not read; calibrate as plumb_bob");
-  }
-  const std::vector<double> K = yaml_matrix(root, "camera_matrix");
-  if (const std::string fault = matrix_fault(K); !fault.empty()) root.fail("camera_matrix", fault);
-  std::vector<double> lens;
-  if (root.has("distortion_coefficients")) lens = yaml_matrix(root, "distortion_coefficients");
-  if (const std::string fault = distortion_fault(lens); !fault.empty()) {
-    root.fail("distortion_coefficients", fault);
-  }
-  CameraParameters p = opencv_parameters(K, lens);
-  p.width = root.whole("image_width", size ? size->width : 0);
-  p.height = root.whole("image_height", size ? size->height : 0);
-  return camera_of(p, file, 1);
-}
 
 /// ViSP's <model>.
 CameraParameters visp_model(const Xml& xml, const pugi::xml_node& model) {
@@ -102,15 +38,31 @@ CameraParameters visp_model(const Xml& xml, const pugi::xml_node& model) {
   return p;
 }
 
-/// The best model of a ViSP <camera>: with radial distortion, else none, else Kannala-Brandt: the
-/// order in which ViSP's users try them.
+/// The lens that camera_writer puts beside ViSP's models.
+CameraParameters plumb_bob(const Xml& xml, const pugi::xml_node& model) {
+  CameraParameters p;
+  p.lens = Lens::PlumbBob;
+  p.px = xml.number(model, "px");
+  p.py = xml.number(model, "py");
+  p.u0 = xml.number(model, "u0");
+  p.v0 = xml.number(model, "v0");
+  std::size_t i = 0;
+  for (const char* key : {"k1", "k2", "p1", "p2", "k3"}) p.distortion[i++] = xml.number(model, key);
+  return p;
+}
+
+/// The best model of a ViSP <camera>: plumb-bob beside ViSP's own, else with radial distortion,
+/// else none, else Kannala-Brandt: the order in which ViSP's users try them.
 CameraParameters visp_camera(const Xml& xml, const pugi::xml_node& camera) {
   std::map<Lens, CameraParameters> models;
+  if (const auto beside = camera.child("additional_information").child("plumb_bob")) {
+    models.emplace(Lens::PlumbBob, plumb_bob(xml, beside));
+  }
   for (const pugi::xml_node& model : camera.children("model")) {
     const CameraParameters p = visp_model(xml, model);
     if (!models.emplace(p.lens, p).second) xml.fail(model, "of this type is given twice");
   }
-  for (const Lens lens : {Lens::VispRadial, Lens::Pinhole, Lens::KannalaBrandt}) {
+  for (const Lens lens : {Lens::PlumbBob, Lens::VispRadial, Lens::Pinhole, Lens::KannalaBrandt}) {
     const auto found = models.find(lens);
     if (found == models.end()) continue;
     CameraParameters p = found->second;
@@ -151,28 +103,12 @@ Camera load_visp(const Xml& xml, const fs::path& file, const std::string& name,
   return camera_of(visp_camera(xml, fitting[0]), file, 1);
 }
 
-Camera load_opencv_xml(const Xml& xml, const fs::path& file) {
-  const pugi::xml_node root = xml.root();
-  const pugi::xml_node matrix = xml.child(root, "camera_matrix");
-  const std::vector<double> K = xml.numbers_of(xml.child(matrix, "data"), 0);
-  if (const std::string fault = matrix_fault(K); !fault.empty()) xml.fail(matrix, fault);
-  std::vector<double> lens;
-  if (const pugi::xml_node node = root.child("distortion_coefficients")) {
-    lens = xml.numbers_of(xml.child(node, "data"), 0);
-    if (const std::string fault = distortion_fault(lens); !fault.empty()) xml.fail(node, fault);
-  }
-  CameraParameters p = opencv_parameters(K, lens);
-  p.width = xml.size(root, "image_width");
-  p.height = xml.size(root, "image_height");
-  return camera_of(p, file, 1);
-}
-
 }  // namespace
 
 Camera load_camera(const fs::path& file, const std::string& name,
                    const std::optional<ImageSize>& size) {
   std::string extension = file.extension().string();
-  if (extension == ".yaml" || extension == ".yml") return load_yaml(file, size);
+  if (extension == ".yaml" || extension == ".yml") return load_camera_yaml(file, size);
   if (extension != ".xml") {
     throw FileError(file, 0, "", "is no camera file; give a .xml, .yml or .yaml file");
   }

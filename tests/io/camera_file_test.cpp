@@ -211,8 +211,10 @@ TEST_F(CameraFile, RefusesYamlThatHoldsNoCameraOfOurs) {
     std::string text = kRos;
     return text.replace(text.find(from), from.size(), to);
   };
+  EXPECT_THAT(error_of("c.yaml", changed("plumb_bob", "rational")),
+              HasSubstr("c.yaml:8: distortion_model: is 'rational', which is not read"));
   EXPECT_THAT(error_of("c.yaml", changed("plumb_bob", "equidistant")),
-              HasSubstr("c.yaml:8: distortion_model: is 'equidistant', which is not read"));
+              HasSubstr("has 5 coefficients; give the 4 of a fisheye"));
   EXPECT_THAT(error_of("c.yaml", changed("[600, 0, ", "[600, ")), HasSubstr("has 8 numbers"));
   EXPECT_THAT(error_of("c.yaml", changed("[600, 0, 320, 0, 610, 240", "[600, 0, 0, 0, 610, 0")),
               ::testing::Not(HasSubstr("order")));
