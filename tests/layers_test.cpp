@@ -28,13 +28,16 @@ const std::map<std::string, Names> kMayInclude = {
     {"sim", {"geometry", "vision", "servo", "vehicle", "loop"}},
     {"eval", {"geometry", "vision", "servo", "vehicle", "loop", "io"}},
     {"lab", {"geometry", "vision", "servo", "vehicle", "loop", "io", "sim", "eval"}},
-    {"app", {"geometry", "vision", "servo", "vehicle", "loop", "link", "io", "sim", "eval", "lab"}},
+    {"calibration", {"geometry", "vision", "servo", "vehicle", "loop", "io", "eval"}},
+    {"app",
+     {"geometry", "vision", "servo", "vehicle", "loop", "link", "io", "sim", "eval", "lab",
+      "calibration"}},
 };
 
 /// An include that starts like this -> layers or files (below src/ or include/kestrel/) that may
 /// have it.
 const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
-    {"visp3/", {"servo", "app/display_module", "app/plot_module"}},
+    {"visp3/", {"servo", "calibration/visp_module", "app/display_module", "app/plot_module"}},
     {"yaml-cpp/", {"io/yaml_tree"}},
     {"pugixml.hpp", {"io/xml_file"}},
     {"CLI/", {"app"}},
@@ -53,16 +56,16 @@ const std::vector<std::pair<std::string, Names>> kLibraryHomes = {
     {"opencv2/videoio", {"io/capture_module"}},
     {"opencv2/imgcodecs", {"io/image_module"}},
     {"opencv2/highgui", {}},
-    {"nlohmann/", {"io", "link", "eval", "lab", "app"}},
-    {"opencv2/", {"vision", "loop", "io", "sim", "app"}},
+    {"nlohmann/", {"io", "link", "eval", "lab", "calibration", "app"}},
+    {"opencv2/aruco", {"calibration"}},
+    {"opencv2/", {"vision", "loop", "io", "sim", "calibration", "app"}},
 };
 
 /// What a public header may show besides the standard library and Kestrel itself.
 const std::map<std::string, Names> kHeaderShows = {
-    {"vision", {"Eigen/", "opencv2/core"}},
-    {"loop", {"Eigen/", "opencv2/core"}},
-    {"io", {"Eigen/", "opencv2/core"}},
-    {"sim", {"Eigen/", "opencv2/core"}},
+    {"vision", {"Eigen/", "opencv2/core"}},      {"loop", {"Eigen/", "opencv2/core"}},
+    {"io", {"Eigen/", "opencv2/core"}},          {"sim", {"Eigen/", "opencv2/core"}},
+    {"calibration", {"Eigen/", "opencv2/core"}},
 };
 
 struct Include {
