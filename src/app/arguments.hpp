@@ -11,6 +11,7 @@
 #include "kestrel/link/axis_response.hpp"
 #include "kestrel/vision/track_options.hpp"
 
+#include "calibrate.hpp"
 #include "compare.hpp"
 #include "evaluate.hpp"
 #include "explain.hpp"
@@ -99,10 +100,10 @@ struct DemoArguments {
   std::filesystem::path output;
 };
 
-using Arguments =
-    std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
-                 CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
-                 LawsArguments, ExplainArguments, SwitchArguments, KeyArguments, JogArguments>;
+using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
+                               CheckArguments, DemoArguments, EvaluateArguments, CompareArguments,
+                               MergeArguments, LawsArguments, ExplainArguments, SwitchArguments,
+                               KeyArguments, JogArguments, CalibrateArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

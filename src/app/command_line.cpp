@@ -209,6 +209,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_key(app, key);
   const auto jog = std::make_shared<JogArguments>();
   add_jog(app, jog);
+  const auto calibrate = std::make_shared<CalibrateArguments>();
+  add_calibrate(app, calibrate);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -230,6 +232,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("switch")) return Arguments(*switching);
   if (app.got_subcommand("key")) return Arguments(*key);
   if (app.got_subcommand("jog")) return Arguments(*jog);
+  if (app.got_subcommand("calibrate")) return Arguments(*calibrate);
   return Arguments(*demo);
 }
 

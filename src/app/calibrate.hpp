@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kestrel/calibration/calibration_job.hpp"
+
+#include "compare.hpp"
+
+namespace kestrel::app {
+
+/// What `calibrate` was asked to do.
+struct CalibrateArguments {
+  std::vector<std::string> inputs;  // pictures, folders, patterns, videos, or one live camera
+  std::string board;
+  std::filesystem::path visp_config;
+  CameraModel model = CameraModel::RadialTangential;
+  std::filesystem::path output;  // empty: runs/calibrate
+  std::string name = "Camera";   // of the camera, in the files
+  int views = 12;                // to collect from a video or camera
+  CrossCheck cross_check = CrossCheck::Visp;
+  Printed printed = Printed::Tables;
+};
+
+/// Puts the verb and its options on a command line.
+void add_calibrate(CLI::App& app, const std::shared_ptr<CalibrateArguments>& arguments);
+
+}  // namespace kestrel::app

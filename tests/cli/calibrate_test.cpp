@@ -1,0 +1,135 @@
+// The verb `calibrate` as its users meet it, on pictures rendered with a known camera.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "kestrel/io/camera_file.hpp"
+#include "kestrel/io/video_writer.hpp"
+
+#include "calibration/board_views.hpp"
+#include "cli/program.hpp"
+#include "support/temp_folder.hpp"
+
+namespace kestrel::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBoard = "chessboard:7x5:0.03";
+
+class Calibrate : public ::testing::Test {
+ protected:
+  /// Writes pictures of the board as a straight lens sees it.
+  void draw(int count) const {
+    Random random("calibrate");
+    const Board board = parse_board(kBoard);
+    const auto poses = usual_poses(board, straight(), count, random);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const std::string name = (i < 10 ? "b0" : "b") + std::to_string(i) + ".png";
+      cv::imwrite((folder_ / name).string(), board_picture(board, straight(), poses[i]));
+    }
+  }
+  Outcome run(const std::vector<std::string>& words) const {
+    std::vector<std::string> all{"calibrate"};
+    all.insert(all.end(), words.begin(), words.end());
+    return kestrel(all, folder_.path());
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(Calibrate, WritesThreeCameraFilesAReportAndJson) {
+  draw(10);
+  const Outcome done =
+      run({"b%02d.png", "--board", kBoard, "--model", "none", "--output", "out", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
+  const auto json = nlohmann::json::parse(done.out);
+  EXPECT_FALSE(json["refused"].get<bool>());
+  EXPECT_EQ(json["views"].size(), 10u);
+  EXPECT_FALSE(json["visp"].is_null());
+  for (const auto& p : json["parameters"]) {
+    const double truth = p["name"] == "fx"   ? 610
+                         : p["name"] == "fy" ? 605
+                         : p["name"] == "cx" ? 315
+                                             : 243;
+    // Corners of rendered pictures are off by a few hundredths of a pixel: 0.2 % of the focal
+    // length.
+    EXPECT_NEAR(p["value"].get<double>(), truth, 1.5) << p["name"];
+  }
+  for (const char* file : {"camera.xml", "camera_opencv.yaml", "camera_ros.yaml"})
+    EXPECT_NEAR(load_camera(folder_ / "out" / file).parameters().px, 610, 1.5) << file;
+  EXPECT_SAYS(read(folder_ / "out" / "report.html"), "Where the board was seen");
+  EXPECT_SAYS(done.err, "+ b03.png: 35 points");
+  const Outcome checked =
+      kestrel({"check", "out/camera.xml", "out/camera_ros.yaml"}, folder_.path());
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+}
+
+TEST_F(Calibrate, RefusesTooFewPicturesAndLeavesNoCamera) {
+  draw(2);
+  const Outcome done = run({".", "--board", kBoard, "--output", "out"});
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_SAYS(done.out, "REFUSED: the board is seen in 2 pictures");
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "camera.xml"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "report.html"));
+}
+
+TEST_F(Calibrate, NamesPicturesThatAreOfNoUse) {
+  draw(5);
+  const std::string whole = read(folder_ / "b00.png");
+  folder_.write("c_half.png", whole.substr(0, whole.size() / 2));
+  cv::imwrite((folder_ / "d_wall.png").string(), cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
+  const Outcome done =
+      run({".", "--board", kBoard, "--model", "none", "--output", "out", "--no-visp"});
+  EXPECT_SAYS(done.err, "- c_half.png: ");
+  EXPECT_SAYS(done.err, "- d_wall.png: no board of this kind is found");
+  EXPECT_SAYS(done.out, "views");
+}
+
+TEST_F(Calibrate, ReadsWhatViSPReads) {
+  draw(6);
+  folder_.write("default.cfg",
+                "BoardSize_Width: 7\nBoardSize_Height: 5\nSquare_Size: 0.03\n"
+                "Calibrate_Pattern: CHESSBOARD\nInput: b%02d.png\nTempo: 1\n");
+  const Outcome done = run({"--visp-config", "default.cfg", "--model", "none", "--no-visp"});
+  EXPECT_EQ(done.exit_code, 0) << done.err << done.out;
+  EXPECT_SAYS(done.out, "chessboard:7x5:0.03");
+  EXPECT_TRUE(fs::exists(folder_ / "runs" / "calibrate" / "camera.xml"));
+}
+
+TEST_F(Calibrate, SaysWhatIsWrongWithTheCommandLine) {
+  const auto error = [&](const std::vector<std::string>& words, int code) {
+    const Outcome done = run(words);
+    EXPECT_EQ(done.exit_code, code) << done.err;
+    return done.err + done.out;
+  };
+  EXPECT_SAYS(error({"none.png", "--board", kBoard}, 1), "none.png: there is no such file");
+  EXPECT_SAYS(error({"none%02d.png", "--board", kBoard}, 1), "no pictures there");
+  EXPECT_SAYS(error({"."}, 1), "no board: give --board");
+  EXPECT_SAYS(error({"--board", kBoard}, 1), "no pictures: give files");
+  EXPECT_SAYS(error({".", "--board", "stripes:7x5:0.03"}, 1), "'stripes' is no pattern");
+  EXPECT_SAYS(error({".", "--board", kBoard, "--model", "magic"}, 2), "magic");
+  EXPECT_SAYS(error({".", "--board", kBoard, "--views", "3"}, 2), "views");
+  EXPECT_SAYS(error({"--help"}, 0), "radial-tangential (k1 k2 p1 p2;");
+}
+
+TEST_F(Calibrate, ChoosesTheFramesOfAVideoThatShowSomethingNew) {
+  draw(10);
+  VideoWriter video(folder_ / "v.avi", 6);
+  for (int i = 0; i < 10; ++i)
+    for (int again = 0; again < 3; ++again)  // a hand that moves and rests
+      video.write(cv::imread((folder_ / ("b0" + std::to_string(i) + ".png")).string(), 0));
+  video.close();
+  const Outcome done = run({video.path().string(), "--board", kBoard, "--model", "none", "--output",
+                            "out", "--no-visp", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = nlohmann::json::parse(done.out);
+  EXPECT_LE(json["views"].size(), 10u);
+  EXPECT_GE(json["views"].size(), 6u);
+}
+
+}  // namespace
+}  // namespace kestrel::test
