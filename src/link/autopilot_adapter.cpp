@@ -37,7 +37,7 @@ AutopilotAdapter::AutopilotAdapter(const AutopilotOptions& options)
 }
 
 void AutopilotAdapter::decide(const VelocityCommand& command, double capture_s, double now_s) {
-  if (release_s_ || options_.part == AdapterPart::Observer) return;
+  if (release_s_) return;
   const std::optional<double> age_before = stream_.age_s(now_s);
   stream_.decide(command, capture_s, now_s);
   const std::optional<double> age_now = stream_.age_s(now_s);

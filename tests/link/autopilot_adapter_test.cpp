@@ -246,6 +246,7 @@ TEST_P(AdapterWithBoth, AnObserverKnowsTheVehicleAndNeverFliesIt) {
   AutopilotOptions options;
   options.part = AdapterPart::Observer;
   options.component_id = 100;
+  options.handshake.take_control = false;  // a pilot would stream for PX4 from the start
   AdapterFlight flight(options, rules_of(GetParam()));
   flight.fly(3);
   flight.model.pilot_chooses(profile_of(GetParam()).control_mode, flight.now_s);  // somebody flies

@@ -24,6 +24,7 @@ bool is_due(std::optional<double>& next_s, double period_s, double now_s) {
 AutopilotAdapter::Frames AutopilotAdapter::tick(double now_s) {
   Frames due;
   ticked_.reset();
+  // Without the handshake nothing is ever asked for, and there is no leave to stream.
   if (options_.part == AdapterPart::Pilot) send_handshake(now_s, due);
   send_commands(now_s, due);
   send_setpoint(now_s, due);
@@ -76,7 +77,6 @@ std::optional<StreamSetpoint> AutopilotAdapter::setpoint(double now_s) {
 }
 
 void AutopilotAdapter::send_setpoint(double now_s, Frames& due) {
-  if (options_.part == AdapterPart::Observer) return;
   if (!is_due(next_setpoint_s_, 1 / options_.rate_hz, now_s)) return;
   const std::optional<StreamSetpoint> wanted = setpoint(now_s);
   if (!wanted) return;
