@@ -19,11 +19,6 @@ RunEntry judged(const std::string& name, int digits, Get get) {
           }};
 }
 
-/// A share as a percentage.
-RunEntry percent(const std::string& name, double TrackMetrics::*share) {
-  return judged(name + "_percent", 1, [share](const TrackMetrics& m) { return 100 * (m.*share); });
-}
-
 RunEntry count(const std::string& name, int TrackMetrics::*number) {
   return judged(name, 0, [number](const TrackMetrics& m) { return std::int64_t(m.*number); });
 }
@@ -43,26 +38,22 @@ std::vector<RunEntry> names() {
           {{"settings"}, [](const BenchScore& s) { return method_name(s.method).settings; }}};
 }
 
-void append(std::vector<RunEntry>& all, const std::vector<RunEntry>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+/// How a run went.
+std::vector<RunEntry> run_entries() {
+  using M = TrackMetrics;
+  return {{{"end"}, [](const BenchScore& s) { return std::string(name(s.end)); }},
+          {{"reason"}, [](const BenchScore& s) { return s.reason; }},
+          {{"frames"}, [](const BenchScore& s) { return std::int64_t(s.frames); }},
+          {{"skipped"}, [](const BenchScore& s) { return std::int64_t(s.skipped); }},
+          {{"found"}, [](const BenchScore& s) { return std::int64_t(s.found); }},
+          count("labelled", &M::labelled),
+          judged("coverage_percent", 1, [](const M& m) { return 100 * m.coverage(); })};
 }
 
+/// The errors, and what was looked at.
 std::vector<RunEntry> score_entries() {
   using M = TrackMetrics;
   return {
-      {{"end"}, [](const BenchScore& s) { return std::string(name(s.end)); }},
-      {{"reason"}, [](const BenchScore& s) { return s.reason; }},
-      {{"frames"}, [](const BenchScore& s) { return std::int64_t(s.frames); }},
-      {{"skipped"}, [](const BenchScore& s) { return std::int64_t(s.skipped); }},
-      {{"found"}, [](const BenchScore& s) { return std::int64_t(s.found); }},
-      count("labelled", &M::labelled),
-      judged("coverage_percent", 1, [](const M& m) { return 100 * m.coverage(); }),
-      percent("within_1px", &M::within_1px),
-      percent("within_2px", &M::within_2px),
-      percent("within_3px", &M::within_3px),
-      percent("within_5px", &M::within_5px),
-      percent("within_10px", &M::within_10px),
-      percent("area_10px", &M::area_10px),
       judged("median_px", 3, [](const M& m) { return m.median_px.value_or(kNone); }),
       judged("p95_px", 3, [](const M& m) { return m.p95_px.value_or(kNone); }),
       judged("max_px", 3, [](const M& m) { return m.max_px.value_or(kNone); }),
@@ -139,20 +130,20 @@ MethodName method_name(const std::string& name) {
 }
 
 Table run_table(const std::vector<BenchScore>& scores) {
-  std::vector<RunEntry> entries = names();
-  append(entries, setting_entries(scores));
-  append(entries, score_entries());
-  return table_of(entries, scores);
+  const auto shares = share_entries<BenchScore>(
+      [](const BenchScore& s) { return s.is_judged ? &s.metrics : nullptr; });
+  const auto start = joined(joined(names(), setting_entries(scores)), run_entries());
+  return table_of(joined(start, joined(shares, score_entries())), scores);
 }
 
 Table time_table(const std::vector<BenchScore>& scores) {
-  std::vector<RunEntry> entries = names();
-  append(entries, {{{"learn_ms", 2}, [](const BenchScore& s) { return s.learn_s / kMilli; }},
-                   time_entry<BenchScore>("mean", &Spread::mean),
-                   time_entry<BenchScore>("median", &Spread::median),
-                   time_entry<BenchScore>("p95", &Spread::p95),
-                   time_entry<BenchScore>("max", &Spread::max)});
-  return table_of(entries, scores);
+  const std::vector<RunEntry> times = {
+      {{"learn_ms", 2}, [](const BenchScore& s) { return s.learn_s / kMilli; }},
+      time_entry<BenchScore>("mean", &Spread::mean),
+      time_entry<BenchScore>("median", &Spread::median),
+      time_entry<BenchScore>("p95", &Spread::p95),
+      time_entry<BenchScore>("max", &Spread::max)};
+  return table_of(joined(names(), times), scores);
 }
 
 }  // namespace kestrel

@@ -9,34 +9,27 @@ namespace {
 
 using MethodEntry = Entry<MethodScore>;
 
-MethodEntry percent(const std::string& name, double MethodScore::*share) {
-  return {{name + "_percent", 1}, [share](const MethodScore& m) -> SummaryValue {
-            return m.judged > 0 ? 100 * (m.*share) : kNone;
-          }};
-}
-
 MethodEntry count(const std::string& name, int MethodScore::*number) {
   return {{name, 0}, [number](const MethodScore& m) { return std::int64_t(m.*number); }};
 }
 
 std::vector<MethodEntry> method_entries() {
   using M = MethodScore;
-  return {{{"method"}, [](const M& m) { return m.method; }},
-          count("sequences", &M::sequences),
-          count("refused", &M::refused),
-          count("failed", &M::failed),
-          count("labelled", &M::labelled),
-          percent("coverage", &M::coverage),
-          percent("within_1px", &M::within_1px),
-          percent("within_2px", &M::within_2px),
-          percent("within_3px", &M::within_3px),
-          percent("within_5px", &M::within_5px),
-          percent("within_10px", &M::within_10px),
-          percent("area_10px", &M::area_10px),
-          {{"median_px", 3}, [](const M& m) { return m.median_px.value_or(kNone); }},
-          count("wrong_10px", &M::wrong),
-          count("wrong_20px", &M::far_wrong),
-          count("found_unlabelled", &M::found_unlabelled)};
+  const std::vector<MethodEntry> sequences = {
+      {{"method"}, [](const M& m) { return m.method; }},
+      count("sequences", &M::sequences),
+      count("refused", &M::refused),
+      count("failed", &M::failed),
+      count("labelled", &M::labelled),
+      {{"coverage_percent", 1},
+       [](const M& m) -> SummaryValue { return m.judged > 0 ? 100 * m.coverage : kNone; }}};
+  const auto shares = share_entries<M>([](const M& m) { return m.judged > 0 ? &m : nullptr; });
+  const std::vector<MethodEntry> errors = {
+      {{"median_px", 3}, [](const M& m) { return m.median_px.value_or(kNone); }},
+      count("wrong_10px", &M::wrong),
+      count("wrong_20px", &M::far_wrong),
+      count("found_unlabelled", &M::found_unlabelled)};
+  return joined(joined(sequences, shares), errors);
 }
 
 /// "324x450", rounded.

@@ -1,7 +1,6 @@
 // absence_table: how often each method finds a template in frames that do not show it.
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "bench/absence.hpp"
+#include "bench/guarded.hpp"
 #include "bench/methods.hpp"
 #include "bench/stress.hpp"
 #include "bench/stress_texture.hpp"
@@ -89,11 +89,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace kestrel::test
 
-int main(int argc, char** argv) {
-  try {
-    return kestrel::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return kestrel::test::guarded(kestrel::test::run, argc, argv); }

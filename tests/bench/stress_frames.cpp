@@ -1,12 +1,12 @@
 // stress_frames FOLDER [CLASS TEXTURE [STEP]]: frames of the rendered sequences as PNG files, the
 // true outline drawn on them, to be looked at.
-#include <exception>
 #include <iostream>
 #include <string>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "bench/guarded.hpp"
 #include "bench/stress.hpp"
 #include "bench/stress_texture.hpp"
 
@@ -48,11 +48,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return kestrel::test::guarded(run, argc, argv); }

@@ -2,9 +2,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "bench/guarded.hpp"
 #include "bench/methods.hpp"
 #include "bench/stress.hpp"
 #include "bench/stress_score.hpp"
@@ -140,11 +139,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace kestrel::test
 
-int main(int argc, char** argv) {
-  try {
-    return kestrel::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return kestrel::test::guarded(kestrel::test::run, argc, argv); }
