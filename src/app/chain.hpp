@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kestrel/ground/ground_station.hpp"
 #include "kestrel/io/run_log.hpp"
 #include "kestrel/loop/step.hpp"
 
@@ -25,6 +26,8 @@ struct Chain {
   std::function<std::optional<Attitude>(double stamp_s)> attitude{};
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
+  /// Is shown each frame, and may stop the chain and change its course; null: nobody.
+  GroundStation* ground = nullptr;
 };
 
 /// How a run ended.

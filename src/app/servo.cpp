@@ -5,6 +5,7 @@
 
 #include "autopilot_file.hpp"
 #include "chain.hpp"
+#include "ground.hpp"
 #include "interrupt.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
@@ -43,9 +44,10 @@ RunResult servo(const ServoArguments& a) {
   Tracker tracker = learn_template(experiment, first);
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
-  const ChainEnd end = run_chain(
-      {*source, *sink.commands, tracker, experiment.task, recorder, a.pace, sink.attitude}, first,
-      watch);
+  Ground ground(a.ground, experiment.task, *sink.commands);
+  const ChainEnd end = run_chain({*source, ground.sink(), tracker, experiment.task, recorder,
+                                  a.pace, sink.attitude, nullptr, ground.station()},
+                                 first, watch);
   RunResult result{recorder.folder(), summarise(end, sink), end.broken ? 1 : 0};
   recorder.add_times(result.summary);
   finish_run(recorder, tracker.model(), experiment.task, end, result.summary,

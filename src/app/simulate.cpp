@@ -10,6 +10,7 @@
 
 #include "autopilot_file.hpp"
 #include "chain.hpp"
+#include "ground.hpp"
 #include "interrupt.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
@@ -107,6 +108,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   if (a.seed) simulation.world.seed = std::uint64_t(*a.seed);
   simulation.world.start =
       scattered(simulation.world.start, simulation.scatter, simulation.world.seed);
+  if (a.ground.port) simulation.world.frames.reset();  // until it is stopped
   if (a.duration_s) {
     simulation.world.frames = std::int64_t(std::ceil(*a.duration_s * simulation.world.rate_hz));
   }
@@ -116,7 +118,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
   const Task task = experiment.task;  // its goal is that of the target, not of the template
   Prepared prepared = prepare(task, scene);
   const Sink outside = open_sink(a.sink, autopilot, std::nullopt);
-  TeeSink sink(world, *outside.commands);
+  Ground ground(a.ground, prepared.task, *outside.commands);
+  TeeSink sink(world, ground.sink());
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
@@ -132,10 +135,14 @@ SimulatedFlight fly(const SimulateArguments& a) {
     before_m = world.motion().world_from_body.translation;
     trajectory.write(tum_line(frame.stamp_s, world.motion().world_from_body));
     const auto end = ended(flight, simulation.goal);
-    if (!end) return std::nullopt;
+    const bool goes_on = ground.station() && (end == FlightEnd::Converged ||
+                                              end == FlightEnd::TargetLost);  // the operator's
+    if (!end || goes_on) return std::nullopt;
     return name(*end);
   };
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
+  chain.ground = ground.station();
+  if (chain.ground) chain.pace = Pace::RealTime;
   std::optional<OutsideView> outside_view;
   if (a.run.video || a.run.display) {
     chain.beside = [&](const Frame& frame, cv::Size size) {
