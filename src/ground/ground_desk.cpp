@@ -7,6 +7,11 @@ namespace {
 
 Answer refused(const std::string& words) { return {Answer::Kind::Refused, words}; }
 
+/// A client as a human reads it: the run's word is for the machine.
+std::string page_of(const std::string& client) {
+  return "page " + client.substr(client.rfind('-') + 1);
+}
+
 }  // namespace
 
 GroundDesk::GroundDesk(const Task& task, CommandGate& gate, const std::string& run)
@@ -46,7 +51,7 @@ Reply GroundDesk::obey(const GroundCommand& command, double now_s, Lock& lock) {
   }
   if (post_.commander() != before) {
     tell(post_.commander().empty() ? "nobody has the command"
-                                   : post_.commander() + " has the command");
+                                   : page_of(post_.commander()) + " has the command");
   }
   return reply;
 }

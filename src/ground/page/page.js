@@ -1,10 +1,11 @@
 // The page: what is shown where, and what the buttons do.
 const at = id => document.getElementById(id);
 const plots = {
-  errors: new Plot("plot_errors", ["norm", "x0", "y0", "x1", "y1", "x2", "y2", "x3"]),
+  errors: new Plot("plot_errors", ["norm", "x", "y", "x", "y", "x", "y", "x", "y"]),
   twist: new Plot("plot_twist", ["vx", "vy", "vz", "wx", "wy", "wz"]),
   command: new Plot("plot_command", ["forward", "right", "down", "yaw", "~forward", "~right", "~down", "~yaw"]),
-  health: new Plot("plot_health", ["condition", "chain ms"]),
+  condition: new Plot("plot_condition", ["condition"]),
+  time: new Plot("plot_time", ["chain", "behind"]),
 };
 let token = "", desk = null, frozen = null, lastPicture_ms = 0, told = 0, drag = null, alive = null;
 
@@ -92,8 +93,8 @@ async function showFrame({ words, jpeg }) {
   }
   const view = words.view;
   lastPicture_ms = performance.now();
-  at("line").textContent = "live";
-  if (!frozen && jpeg.length) {
+  at("line").textContent = frozen === null ? "live" : "the picture is frozen; what flies goes on";
+  if (frozen === null && jpeg.length) {
     Picture.show(await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" })), view);
   }
   showSight(view);
@@ -101,7 +102,8 @@ async function showFrame({ words, jpeg }) {
   plots.errors.add(view.stamp_s, view.errors && [view.error_norm, ...view.errors]);
   plots.twist.add(view.stamp_s, view.twist);
   plots.command.add(view.stamp_s, view.sent && [...view.sent, ...view.wanted]);
-  plots.health.add(view.stamp_s, [view.condition, view.chain_ms]);
+  plots.condition.add(view.stamp_s, [view.condition]);
+  plots.time.add(view.stamp_s, [view.chain_ms, words.encode_ms]);
   document.documentElement.dataset.frame = view.frame;  // for those who watch the page
 }
 
@@ -177,6 +179,7 @@ async function examine() {
   if (!v) return;
   at("width_m").value = Number(reply.width_m.toPrecision(3));
   at("use").disabled = false;
+  at("use").scrollIntoView({ block: "nearest" });
 }
 
 async function use() {

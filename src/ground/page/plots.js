@@ -3,14 +3,14 @@ const kSpan_s = 20;
 const kColours = ["--c0", "--c1", "--c2", "--c3", "--c4", "--c5", "--c6", "--c7"]
   .map(name => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
 
-// curves: names; those that start with "~" are dashed and have the colour of their namesake.
+// curves: names; those of one name have one colour, and those that start with "~" are dashed.
 class Plot {
   constructor(id, curves) {
     this.canvas = document.getElementById(id);
     this.to = this.canvas.getContext("2d");
     this.curves = curves.map(name => name.replace("~", ""));
     this.dashed = curves.map(name => name.startsWith("~"));
-    const solid = this.curves.filter((_, i) => !this.dashed[i]);
+    const solid = [...new Set(this.curves)];
     this.colours = this.curves.map(name => kColours[solid.indexOf(name) % kColours.length]);
     this.times = [];
     this.values = curves.map(() => []);
@@ -58,7 +58,7 @@ class Plot {
       to.fillText(Number(v.toPrecision(3)).toString(), at.left - 4, y(v) + at.font / 3);
     }
     to.textAlign = "center";
-    for (let t = 0; t <= kSpan_s; t += 5) to.fillText("-" + t + " s", Math.min(x(end - t), at.right - at.font * 1.4), at.bottom + at.font * 1.2);
+    for (let t = 0; t <= kSpan_s; t += 5) to.fillText((t ? "-" + t : "0") + " s", Math.min(x(end - t), at.right - at.font * 1.4), at.bottom + at.font * 1.2);
   }
   lines(x, y) {
     this.values.forEach((curve, i) => {
@@ -82,7 +82,7 @@ class Plot {
     to.textAlign = "left";
     let at = left;
     this.curves.forEach((name, i) => {
-      if (this.dashed[i]) return;
+      if (this.dashed[i] || this.curves.indexOf(name) < i) return;
       to.fillStyle = this.colours[i];
       to.fillRect(at, font * 0.55, font * 0.9, 3);
       to.fillText(name, at + font * 1.1, font);
