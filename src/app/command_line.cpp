@@ -124,6 +124,7 @@ void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   verb->add_option("--sink", a->sink,
                    "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
   add_ground_options(*verb, a->ground);
+  verb->get_option("--ground")->excludes(verb->get_option("--seeds"));
   add_run_options(*verb, a->run);
 }
 

@@ -42,11 +42,12 @@ RunResult servo(const ServoArguments& a) {
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
   Tracker tracker = learn_template(experiment, first);
+  Ground ground(a.ground, experiment.task, *sink.commands);
+  const Pace pace = a.ground.port ? Pace::RealTime : a.pace;  // somebody looks on
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   const auto watch = [](const Frame&, const Step&, LogRow&) { return std::nullopt; };
-  Ground ground(a.ground, experiment.task, *sink.commands);
-  const ChainEnd end = run_chain({*source, ground.sink(), tracker, experiment.task, recorder,
-                                  a.pace, sink.attitude, nullptr, ground.station()},
+  const ChainEnd end = run_chain({*source, ground.sink(), tracker, experiment.task, recorder, pace,
+                                  sink.attitude, nullptr, ground.station()},
                                  first, watch);
   RunResult result{recorder.folder(), summarise(end, sink), end.broken ? 1 : 0};
   recorder.add_times(result.summary);
