@@ -27,6 +27,13 @@ struct RunArguments {
   bool display = false;
 };
 
+/// The ground station of a run.
+struct GroundArguments {
+  std::optional<std::uint16_t> port;  // of the page; empty: no ground station
+  std::string host = "127.0.0.1";
+  std::filesystem::path token;  // empty: a new one is printed
+};
+
 struct TrackArguments {
   std::string input;  // sequence description, printf pattern, folder, video, camera:N ...
   std::optional<PixelBox> roi;
@@ -49,6 +56,7 @@ struct ServoArguments {
   std::string source;  // empty: the task's
   std::string sink;
   Pace pace = Pace::AsFastAsPossible;
+  GroundArguments ground;
   RunArguments run;
 };
 
@@ -75,6 +83,7 @@ struct SimulateArguments {
   std::optional<SeedRange> seeds;
   std::string sink;
   std::optional<RealTimeArguments> real_time;
+  GroundArguments ground;
   RunArguments run;
 };
 

@@ -52,8 +52,9 @@ class Fold {
         frame_(std::move(first)),
         pacer_(chain.pace),
         progress_(chain.source.frame_count()),
+        task_(chain.task),
         state_(start(chain.tracker, frame_)) {
-    drawn_.goal_corners = goal_corners(chain.tracker.model(), chain.task);
+    drawn_.goal_corners = goal_corners(chain.tracker.model(), task_);
   }
 
   /// Takes the frame down the chain, then records it; false when the run has come to its end.
@@ -61,10 +62,15 @@ class Fold {
     pacer_.wait_for(frame_.stamp_s);
     const double start_s = monotonic_s();
     if (!frame_.attitude && chain_.attitude) frame_.attitude = chain_.attitude(frame_.stamp_s);
-    Step now = step(chain_.tracker, frame_, state_, chain_.task);
+    if (chain_.ground) take_course();
+    Step now = step(chain_.tracker, frame_, state_, task_);
+    if (chain_.ground && chain_.ground->desk().mode() != FlightMode::Servo) hold_still(now);
     chain_.sink.send(now.decision.command, command_stamp_s(now.decision.command));
     sent_s_ = monotonic_s();
     const double chain_ms = (sent_s_ - start_s) * 1e3;
+    if (chain_.ground && has_image(frame_)) {
+      chain_.ground->show(ground_view(frame_, now, chain_.tracker.model(), task_, chain_ms));
+    }
     LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
@@ -113,6 +119,23 @@ class Fold {
     return is_old ? seen_stamp_s_ : frame_.stamp_s;
   }
 
+  /// What the operator has changed since the frame before.
+  void take_course() {
+    std::optional<Course> course = chain_.ground->desk().course();
+    if (!course) return;
+    task_ = std::move(course->task);
+    if (course->tracker) {
+      chain_.tracker = std::move(*course->tracker);
+      state_ = start(chain_.tracker, frame_);
+    }
+    drawn_.goal_corners = goal_corners(chain_.tracker.model(), task_);
+  }
+
+  static void hold_still(Step& now) {
+    now.decision = stopped(std::move(now.decision));
+    now.next.decision = now.decision.next;
+  }
+
   cv::Mat picture_of(const Step& now) const {
     Frame shown = frame_;
     if (shown.gray.empty()) shown.gray = cv::Mat::zeros(size_, CV_8UC1);
@@ -143,6 +166,7 @@ class Fold {
   Pacer pacer_;
   Progress progress_;
   OverlayOptions drawn_;
+  Task task_;  // as the operator has changed it
   LoopState state_;
   ChainEnd end_;
   double source_ms_ = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kestrel/ground/ground_station.hpp"
 #include "kestrel/io/run_log.hpp"
 #include "kestrel/loop/step.hpp"
 
@@ -27,6 +28,8 @@ struct Chain {
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
   /// Of a live source: what monotonic_s() was when the stamps were zero.
   std::optional<double> stamp_origin_s{};
+  /// Is shown each frame, and may stop the chain and change its course; null: nobody.
+  GroundStation* ground = nullptr;
 };
 
 /// How a run ended.

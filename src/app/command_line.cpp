@@ -20,6 +20,20 @@ void add_run_options(CLI::App& verb, RunArguments& run) {
                 "Show each frame in a window; a right click ends the run (default: no window)");
 }
 
+void add_ground_options(CLI::App& verb, GroundArguments& ground) {
+  auto* port = verb.add_option_function<std::uint16_t>(
+      "--ground", [&ground](std::uint16_t number) { ground.port = number; },
+      "Serve the ground station's page at this port, its commands at the next one (0: any free "
+      "ones); the vehicle hovers until Start is pressed there (default: no page)");
+  verb.add_option("--ground-bind", ground.host,
+                  "Address to serve it at, a number (default 127.0.0.1: this machine only)")
+      ->needs(port);
+  verb.add_option("--ground-token", ground.token,
+                  "File of mode 0600 with the token that a viewer must show, as 'kestrel key FILE' "
+                  "makes it (default: a new token is printed once)")
+      ->needs(port);
+}
+
 void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
   auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
   verb->add_option("INPUT,--input", a->input,
@@ -64,12 +78,16 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   verb->add_flag_callback(
       "--real-time", [a] { a->pace = Pace::RealTime; },
       "Play a recording at its own rate (default: as fast as possible)");
+  add_ground_options(*verb, a->ground);
   add_run_options(*verb, a->run);
 }
 
 void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
   add_simulate_options(*verb, a);
+  add_ground_options(*verb, a->ground);
+  verb->get_option("--ground")->excludes(verb->get_option("--seeds"));
+  verb->get_option("--ground")->excludes(verb->get_option("--real-time"));
   add_run_options(*verb, a->run);
 }
 

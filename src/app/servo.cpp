@@ -8,6 +8,7 @@
 
 #include "autopilot_file.hpp"
 #include "chain.hpp"
+#include "ground.hpp"
 #include "interrupt.hpp"
 #include "simulated_task.hpp"
 #include "sinks.hpp"
@@ -68,6 +69,7 @@ RunResult servo(const ServoArguments& a) {
                      experiment.camera_file.value_or(a.task));
   LearnedTask learned_task = learned(experiment, simulation, first);
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
+  Ground ground(a.ground, learned_task.task, *sink.commands);
   std::unique_ptr<WireLog> times;
   if (sink.take_times) times = std::make_unique<WireLog>(recorder.folder() / "wire.csv");
   const auto watch = [&](const Frame&, const Step&, LogRow&) -> std::optional<std::string> {
@@ -75,14 +77,15 @@ RunResult servo(const ServoArguments& a) {
     return std::nullopt;
   };
   const ChainEnd end = run_chain({*source,
-                                  *sink.commands,
+                                  ground.sink(),
                                   learned_task.tracker,
                                   learned_task.task,
                                   recorder,
-                                  a.pace,
+                                  a.ground.port ? Pace::RealTime : a.pace,  // somebody looks on
                                   sink.attitude,
                                   {},
-                                  stamp_origin_s(*source)},
+                                  stamp_origin_s(*source),
+                                  ground.station()},
                                  first, watch);
   RunResult result{recorder.folder(), summarise(end, sink, *source), end.broken ? 1 : 0};
   recorder.add_times(result.summary);

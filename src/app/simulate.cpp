@@ -7,6 +7,7 @@
 
 #include "chain.hpp"
 #include "flight_truth.hpp"
+#include "ground.hpp"
 #include "interrupt.hpp"
 #include "real_time.hpp"
 #include "simulated_task.hpp"
@@ -39,7 +40,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
   const Task& task = loaded.experiment.task;  // its goal is that of the target, not of the template
   LearnedTask prepared = learned_at_goal(task, scene);
   const Sink outside = open_sink(a.sink, loaded.autopilot, std::nullopt);
-  TeeSink sink(world, *outside.commands);
+  Ground ground(a.ground, prepared.task, *outside.commands);
+  TeeSink sink(world, ground.sink());
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
@@ -56,10 +58,14 @@ SimulatedFlight fly(const SimulateArguments& a) {
     before_m = world.motion().world_from_body.translation;
     trajectory.write(tum_line(frame.stamp_s, world.motion().world_from_body));
     const auto end = ended(flight, simulation.goal);
-    if (!end) return std::nullopt;
+    const bool goes_on = ground.station() && (end == FlightEnd::Converged ||
+                                              end == FlightEnd::TargetLost);  // the operator's
+    if (!end || goes_on) return std::nullopt;
     return name(*end);
   };
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
+  chain.ground = ground.station();
+  if (chain.ground) chain.pace = Pace::RealTime;
   std::optional<OutsideView> outside_view;
   if (a.run.video || a.run.display) {
     chain.beside = [&](const Frame& frame, cv::Size size) {

@@ -18,6 +18,7 @@ SimulatedTask load_simulated_task(const SimulateArguments& a) {
   world.body_from_camera = loaded.experiment.task.body_from_camera;
   if (a.seed) world.seed = std::uint64_t(*a.seed);
   world.start = scattered(world.start, loaded.simulation.scatter, world.seed);
+  if (a.ground.port) world.frames.reset();  // until it is stopped
   if (a.duration_s) world.frames = std::int64_t(std::ceil(*a.duration_s * world.rate_hz));
   loaded.scene = scene_of(loaded.simulation.scene, loaded.experiment.task.target_width_m,
                           loaded.experiment.task.target_height_m);

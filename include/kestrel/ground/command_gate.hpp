@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mutex>
+
+#include "kestrel/vehicle/velocity_command.hpp"
+
+namespace kestrel {
+
+/// A gate before a sink. Closed, every command that comes is sent on as hover; closing it sends
+/// hover at once, from whatever thread, and does not wait for the next frame. Starts closed.
+class CommandGate final : public CommandSink {
+ public:
+  /// The sink must outlive the gate, and be used through it only.
+  explicit CommandGate(CommandSink& behind) : behind_(behind) {}
+
+  void send(const VelocityCommand& command, double stamp_s) noexcept override;
+  long failures() const override;
+
+  /// Zero velocity now, for the frame sent last, and from now on.
+  void close() noexcept;
+  void open() noexcept;
+  bool is_open() const;
+
+ private:
+  CommandSink& behind_;
+  mutable std::mutex mutex_;
+  bool is_open_ = false;
+  bool has_sent_ = false;
+  double stamp_s_ = 0;  // of the last command
+};
+
+}  // namespace kestrel

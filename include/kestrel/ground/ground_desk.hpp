@@ -1,0 +1,119 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kestrel/ground/command_gate.hpp"
+#include "kestrel/ground/command_post.hpp"
+#include "kestrel/ground/flight_mode.hpp"
+#include "kestrel/ground/ground_view.hpp"
+#include "kestrel/ground/template_verdict.hpp"
+#include "kestrel/loop/task.hpp"
+#include "kestrel/vision/tracker.hpp"
+
+namespace kestrel {
+
+/// What the chain is to do from its next frame on.
+struct Course {
+  Task task;
+  std::optional<Tracker> tracker;  // of a new template; empty: the one there is
+};
+
+/// What a command is answered.
+struct Reply {
+  Answer answer;
+  std::string client;  // of "join"
+  std::optional<TemplateVerdict> verdict;
+  std::optional<double> width_m;  // likely width of the template examined
+};
+
+/// Something an operator did, or that happened to one.
+struct GroundEvent {
+  std::uint64_t number = 0;  // counts from 1
+  double stamp_s = 0;        // of the newest frame
+  std::string words;
+};
+
+/// How things stand at the desk.
+struct DeskStatus {
+  FlightMode mode = FlightMode::Hover;
+  std::string commander;  // client; empty: nobody
+  std::string asker;
+  double gain_per_s = 0;
+  double most_gain_per_s = 0;
+  CommandLimits limits;
+  std::vector<GroundEvent> events;  // the last kEvents, oldest first
+};
+
+/// Where the commands of all viewers meet the chain: what is allowed is done, and all is answered.
+/// The loop's thread shows frames and takes the course; any thread brings commands. No clock: times
+/// are of the caller's, s. Nobody waits long: learning a template is done outside the lock.
+///
+/// The chain starts in hover. Abort and hover are anybody's at any time; all else is the
+/// commander's, one at a time. A commander who falls silent loses the command; the chain goes on.
+class GroundDesk {
+ public:
+  static constexpr std::size_t kEvents = 50;
+  /// Frames of which one can be frozen: a second of them, since a viewer is behind.
+  static constexpr std::size_t kKeptViews = 30;
+
+  /// run: see CommandPost. The task's gain is the most that can be asked for. The gate is opened by
+  /// start and closed by abort and hover, at once; it must outlive the desk.
+  GroundDesk(const Task& task, CommandGate& gate, const std::string& run);
+
+  /// Answers a command and does what it asks for, now or with the next frame.
+  Reply handle(const GroundCommand& command, double now_s);
+
+  /// Takes the command from a commander who has fallen silent.
+  void look_after(double now_s);
+
+  void show(std::shared_ptr<const GroundView> view);
+
+  /// What has changed since it was asked last; empty: nothing.
+  std::optional<Course> course();
+
+  FlightMode mode() const;
+  DeskStatus status() const;
+
+ private:
+  struct Candidate {
+    Tracker tracker;
+    PixelBox box;
+    std::shared_ptr<const GroundView> view;
+  };
+  using Lock = std::unique_lock<std::mutex>;
+
+  Answer stop_or_start(Ask ask);
+  Reply obey(const GroundCommand& command, double now_s, Lock& lock);
+  Answer set_gain(double gain_per_s);
+  Answer hold_view();
+  Answer freeze(std::int64_t frame);
+  Reply examine(const PixelBox& box, Lock& lock);
+  Answer use(double width_m);
+  Answer steer(const Task& task, std::optional<Tracker> tracker, const std::string& done);
+  double likely_width_m(const PixelBox& box, const GroundView& view) const;
+  void tell(const std::string& words);
+
+  mutable std::mutex mutex_;
+  Task task_;
+  const double most_gain_per_s_;
+  CommandGate& gate_;
+  CommandPost post_;
+  FlightMode mode_ = FlightMode::Hover;
+  std::deque<std::shared_ptr<const GroundView>> views_;
+  std::shared_ptr<const GroundView> frozen_;
+  std::optional<Candidate> candidate_;
+  std::optional<Course> course_;
+  std::deque<GroundEvent> events_;
+  std::uint64_t told_ = 0;
+};
+
+/// The decision of a chain that may not move: exact zeros, and nothing remembered that could be
+/// resumed. What the law wants is kept, to be looked at.
+Decision stopped(Decision decision);
+
+}  // namespace kestrel

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "kestrel/ground/access_token.hpp"
+#include "kestrel/ground/command_gate.hpp"
+#include "kestrel/ground/ground_desk.hpp"
+#include "kestrel/ground/ground_view.hpp"
+
+namespace kestrel {
+
+/// Where the page is served and how much of it.
+struct GroundOptions {
+  std::string host = "127.0.0.1";  // a number; loopback: this machine only
+  std::uint16_t port = 0;          // of the page and the streams; 0: any free one
+  /// Of the commands, a port of their own: a browser holds six connections to a port, and with six
+  /// streams open no command would get through. 0: the page's next, or any free one.
+  std::uint16_t command_port = 0;
+  int max_streams = 6;         // more are answered 503
+  double commands_per_s = 20;  // of all pages together, stops apart; more are answered 429
+  int jpeg_quality = 75;       // 1 to 100
+
+  /// Throws std::invalid_argument that names the first option out of range.
+  void check() const;
+};
+
+/// What was refused since the start, requests.
+struct GroundRefusals {
+  long wrong_token = 0;
+  long foreign = 0;    // of another page, or by a name that is no number
+  long malformed = 0;  // no command
+  long too_many = 0;   // streams, commands a second
+  long stale = 0;      // replayed
+};
+
+/// The ground station: a page in the browser that shows what the chain sees and takes commands to
+/// GroundDesk. Its threads wait for viewers; the loop never does: it hands over a frame by a swap
+/// of pointers, and each viewer is sent the newest when it has taken the one before.
+///
+/// Page and scripts are served to all; streams and commands need the token, and commands the page's
+/// own origin where a browser tells one.
+class GroundStation {
+ public:
+  /// Seconds on a clock that only goes forward; called by several threads.
+  using Clock = std::function<double()>;
+
+  /// Listens when this returns. Throws std::runtime_error when a port is taken, naming it. The gate
+  /// must outlive the station.
+  GroundStation(const GroundOptions& options, const AccessToken& token, const Task& task,
+                CommandGate& gate, Clock now_s);
+  ~GroundStation();
+  GroundStation(const GroundStation&) = delete;
+  GroundStation& operator=(const GroundStation&) = delete;
+
+  std::uint16_t port() const;
+  std::uint16_t command_port() const;
+  /// The page's address with the token, for its owner: "http://127.0.0.1:8080/#token=...". What is
+  /// behind # a browser sends to nobody.
+  std::string address() const;
+
+  GroundDesk& desk();
+  GroundRefusals refusals() const;
+
+  /// Hands a frame to the viewers: a swap of pointers.
+  void show(GroundView view);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace kestrel

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "kestrel/io/run_log.hpp"
+#include "kestrel/loop/step.hpp"
+
+namespace kestrel {
+
+/// What a viewer is shown of one frame: its picture, and what was made of it.
+struct GroundView {
+  LogRow row;
+  cv::Mat gray;                         // of its own, not shared with the source of the frames
+  std::array<Pixel, 4> goal_corners{};  // of the target, where the goal wants them, px
+  std::vector<Pixel> inliers;           // places of the keypoints that agree, px
+  std::optional<TargetPose> seen;       // camera_from_target, the camera levelled; when seen
+  double chain_ms = 0;                  // from the frame to the command
+};
+
+/// Copies the picture; encodes nothing.
+GroundView ground_view(const Frame& frame, const Step& step, const Template& model,
+                       const Task& task, double chain_ms);
+
+/// A pose measured with a tilted helicopter, as the levelled one would measure it from the same
+/// place (what Task::goal is); as it is without an attitude.
+TargetPose levelled(const TargetPose& camera_from_target, const std::optional<Attitude>& attitude,
+                    const Mount& body_from_camera);
+
+/// A viewer's words of the frame, a JSON object: frame, stamp_s, size_px, status, miss, confidence,
+/// corners, predicted, window, goal, inliers, state, errors, error_norm, condition, twist, wanted,
+/// sent, chain_ms, distance_m. Pixels are pairs; null for what is not known.
+std::string json(const GroundView& view);
+
+}  // namespace kestrel

@@ -1,0 +1,119 @@
+// What GroundDesk does to the course: gain, goal and template.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kestrel/geometry/plane_pose.hpp"
+#include "kestrel/ground/ground_desk.hpp"
+
+namespace kestrel {
+namespace {
+
+Answer refused(const std::string& words) { return {Answer::Kind::Refused, words}; }
+Answer done(const std::string& words) { return {Answer::Kind::Done, words}; }
+
+/// The homography of a template to the image it was learned from.
+Homography placed(const PixelBox& box) {
+  Homography H;
+  H.H(0, 2) = box.u;
+  H.H(1, 2) = box.v;
+  return H;
+}
+
+}  // namespace
+
+/// A task that its check refuses changes nothing.
+Answer GroundDesk::steer(const Task& task, std::optional<Tracker> tracker,
+                         const std::string& words) {
+  try {
+    task.check();
+  } catch (const std::invalid_argument& error) {
+    return refused(error.what());
+  }
+  task_ = task;
+  if (!tracker && course_) tracker = std::move(course_->tracker);  // not yet fetched
+  course_.emplace(Course{task_, std::move(tracker)});
+  tell(words);
+  return done(words);
+}
+
+Answer GroundDesk::set_gain(double gain_per_s) {
+  if (gain_per_s > most_gain_per_s_) {
+    return refused(fmt::format("the task allows a gain of {:.3g} 1/s at most", most_gain_per_s_));
+  }
+  Task task = task_;
+  const double share = gain_per_s / task.servo.gain_per_s;
+  task.servo.gain_per_s = gain_per_s;
+  if (task.servo.far_gain_per_s) *task.servo.far_gain_per_s *= share;
+  return steer(task, std::nullopt, fmt::format("gain {:.3g} 1/s", gain_per_s));
+}
+
+Answer GroundDesk::hold_view() {
+  if (views_.empty() || !views_.back()->seen) return refused("the target is not seen");
+  Task task = task_;
+  task.goal = *views_.back()->seen;
+  return steer(task, std::nullopt,
+               fmt::format("the view of frame {} is the goal", views_.back()->row.frame));
+}
+
+Answer GroundDesk::freeze(std::int64_t frame) {
+  const auto it = std::find_if(views_.begin(), views_.end(),
+                               [&](const auto& view) { return view->row.frame == frame; });
+  if (it == views_.end()) return refused("that picture is gone: freeze a newer one");
+  frozen_ = *it;
+  candidate_.reset();
+  return done(fmt::format("frame {} is frozen", frame));
+}
+
+/// The width of what is in the rectangle, were it where the target is; without the target in sight,
+/// were it as large in the picture as the goal wants the target.
+double GroundDesk::likely_width_m(const PixelBox& box, const GroundView& view) const {
+  const TargetPose& pose = view.seen ? *view.seen : task_.goal;
+  return box.width * pose.translation.z() / task_.camera.parameters().px;
+}
+
+Reply GroundDesk::examine(const PixelBox& box, Lock& lock) {
+  const auto view = frozen_;
+  const TrackOptions options = task_.track;
+  if (!view) return {refused("freeze a picture first"), {}, {}, {}};
+  lock.unlock();  // learning takes a while, and abort must not wait for it
+  std::optional<Tracker> tracker;
+  Reply reply;
+  try {
+    tracker.emplace(view->gray, box, options);
+    reply.verdict = template_verdict(tracker->model(), options);
+    reply.answer = done(reply.verdict->words);
+  } catch (const std::invalid_argument& error) {
+    reply.answer = refused(error.what());
+  }
+  lock.lock();
+  if (frozen_ != view) return {refused("another picture was frozen meanwhile"), {}, {}, {}};
+  candidate_.reset();
+  if (!tracker) return reply;
+  reply.width_m = likely_width_m(box, *view);
+  candidate_.emplace(Candidate{std::move(*tracker), box, view});
+  return reply;
+}
+
+Answer GroundDesk::use(double width_m) {
+  if (!candidate_) return refused("draw a template first");
+  const PixelBox& box = candidate_->box;
+  Task task = task_;
+  task.target_width_m = width_m;
+  task.target_height_m = width_m * box.height / box.width;  // as if seen from the front
+  const PlaneSize size{box.width, box.height, task.target_width_m, task.target_height_m};
+  const auto pose = plane_pose(placed(box), size, task.camera, std::nullopt, task.pose);
+  if (!pose) return refused("from that place no goal follows; draw another rectangle");
+  task.goal =
+      levelled(pose->camera_from_target, candidate_->view->row.attitude, task.body_from_camera);
+  const Answer answer = steer(
+      task, std::move(candidate_->tracker),
+      fmt::format("new template {:.0f}x{:.0f} px, {:.3g} m wide", box.width, box.height, width_m));
+  candidate_.reset();
+  if (answer.kind == Answer::Kind::Done) stop_or_start(Ask::Hover);  // doubt means hover
+  return answer;
+}
+
+}  // namespace kestrel

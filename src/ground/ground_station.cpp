@@ -1,0 +1,130 @@
+#include "kestrel/ground/ground_station.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "kestrel/ground/stream_frame.hpp"
+#include "kestrel/io/image_codec.hpp"
+
+#include "http_parts.hpp"
+
+namespace kestrel {
+namespace {
+
+constexpr std::size_t kPageThreads = 16;     // besides the streams
+constexpr std::size_t kCommandThreads = 64;  // idle connections hold one for a second each
+
+void require(bool good, const char* what) {
+  if (!good) throw std::invalid_argument(what);
+}
+
+/// A word that no other run has: a part of a token that is thrown away.
+std::string word_of_this_run() { return random_token().text().substr(0, 16); }
+
+/// A view and when it was shown.
+struct Shown {
+  std::shared_ptr<const GroundView> view;
+  double now_s = 0;
+};
+
+}  // namespace
+
+void GroundOptions::check() const {
+  require(max_streams >= 1 && max_streams <= 64, "max_streams: must be 1 to 64");
+  require(std::isfinite(commands_per_s) && commands_per_s >= 1,
+          "commands_per_s: must be finite and 1 or more (1/s)");
+  require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality: must be 1 to 100");
+  require(command_port == 0 || command_port != port,
+          "command_port: must not be the port of the page");
+}
+
+struct GroundStation::Parts {
+  Shared shared;
+  LatestValue<Shown> views;
+  HttpServer page;
+  HttpServer commands;
+  std::thread encoder;
+
+  Parts(const GroundOptions& options, const AccessToken& token, const Task& task, CommandGate& gate,
+        Clock now_s)
+      : shared{options, token, std::move(now_s), {task, gate, word_of_this_run()}, {}, {}, {0},
+               {0},     {0}},
+        page(kPageThreads + std::size_t(options.max_streams)),
+        commands(kCommandThreads) {
+    serve_page(page.routes(), shared);
+    serve_commands(commands.routes(), shared);
+    // The commands first: a page that is served can command.
+    const bool next = options.command_port == 0 && options.port != 0;
+    shared.command_port = commands.listen(
+        options.host, next ? std::uint16_t(options.port + 1) : options.command_port);
+    shared.page_port = page.listen(options.host, options.port);
+    encoder = std::thread([this] { encode(); });
+  }
+
+  ~Parts() {
+    views.close();
+    shared.frames.close();
+    page.stop();
+    commands.stop();
+    if (encoder.joinable()) encoder.join();
+  }
+
+  /// Encodes the newest view for all viewers, as long as there are any, and looks after the desk.
+  void encode() {
+    constexpr double kLook_s = 0.5;
+    std::uint64_t known = 0;
+    while (!views.is_closed()) {
+      const auto shown = views.newer_than(known, kLook_s);
+      shared.desk.look_after(shared.now_s());
+      if (!shown.value) continue;
+      known = shown.number;
+      if (shared.viewers > 0) shared.frames.put(encoded(*shown.value));
+    }
+  }
+
+  std::shared_ptr<const std::string> encoded(const Shown& shown) const {
+    const GroundView& view = *shown.view;
+    std::vector<unsigned char> jpeg;
+    if (!view.gray.empty()) jpeg = encode_jpeg(view.gray, shared.options.jpeg_quality);
+    const double behind_ms = (shared.now_s() - shown.now_s) * 1e3;
+    return std::make_shared<const std::string>(
+        stream_frame("{\"view\":" + json(view) + ",\"desk\":" + desk_json(shared) +
+                         ",\"encode_ms\":" + std::to_string(behind_ms) + "}",
+                     jpeg));
+  }
+};
+
+GroundStation::GroundStation(const GroundOptions& options, const AccessToken& token,
+                             const Task& task, CommandGate& gate, Clock now_s) {
+  options.check();
+  parts_ = std::make_unique<Parts>(options, token, task, gate, std::move(now_s));
+}
+
+GroundStation::~GroundStation() = default;
+
+std::uint16_t GroundStation::port() const { return parts_->shared.page_port; }
+std::uint16_t GroundStation::command_port() const { return parts_->shared.command_port; }
+GroundDesk& GroundStation::desk() { return parts_->shared.desk; }
+
+std::string GroundStation::address() const {
+  const std::string& host = parts_->shared.options.host;
+  const bool is_ipv6 = host.find(':') != std::string::npos;
+  return "http://" + (is_ipv6 ? '[' + host + ']' : host) + ':' + std::to_string(port()) +
+         "/#token=" + parts_->shared.token.text();
+}
+
+GroundRefusals GroundStation::refusals() const {
+  const RefusalCounts& r = parts_->shared.refusals;
+  return {r.wrong_token, r.foreign, r.malformed, r.too_many, r.stale};
+}
+
+void GroundStation::show(GroundView view) {
+  auto shared_view = std::make_shared<const GroundView>(std::move(view));
+  parts_->shared.desk.show(shared_view);
+  parts_->views.put(
+      std::make_shared<const Shown>(Shown{std::move(shared_view), parts_->shared.now_s()}));
+}
+
+}  // namespace kestrel

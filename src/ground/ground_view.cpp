@@ -1,0 +1,95 @@
+#include "kestrel/ground/ground_view.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "kestrel/geometry/attitude.hpp"
+
+namespace kestrel {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A thousandth of a pixel is nothing on a screen, and the stream is read over a radio.
+double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+Json pair(const Pixel& p) { return {rounded(p.u), rounded(p.v)}; }
+
+template <class Pixels>
+Json pairs(const Pixels& pixels) {
+  Json all = Json::array();
+  for (const Pixel& p : pixels) all.push_back(pair(p));
+  return all;
+}
+
+template <class Pixels>
+Json pairs_or_null(const std::optional<Pixels>& pixels) {
+  return pixels ? pairs(*pixels) : Json();
+}
+
+Json numbers(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+
+void add_track(Json& to, const LogRow& row) {
+  to["status"] = name(row.status);
+  to["stage"] = name(row.stage);
+  to["miss"] = name(row.miss);
+  to["age_s"] = row.age_s;
+  to["confidence"] = row.confidence;
+  to["corners"] = pairs_or_null(row.corners);
+  to["predicted"] = pairs_or_null(row.predicted);
+  to["window"] = {row.window.u, row.window.v, row.window.width, row.window.height};
+}
+
+void add_decision(Json& to, const LogRow& row) {
+  to["errors"] = row.servo ? Json(row.servo->error) : Json();
+  to["error_norm"] = row.servo ? Json(row.servo->error_norm) : Json();
+  to["condition"] = row.servo ? Json(row.servo->condition) : Json();
+  to["twist"] = row.servo ? numbers(row.servo->twist.vector()) : Json();
+  if (!row.decision) return;
+  to["state"] = name(row.decision->state);
+  to["wanted"] = numbers(row.decision->wanted.vector());
+  to["sent"] = numbers(row.decision->sent.vector());
+}
+
+}  // namespace
+
+TargetPose levelled(const TargetPose& camera_from_target, const std::optional<Attitude>& attitude,
+                    const Mount& body_from_camera) {
+  if (!attitude) return camera_from_target;
+  const Eigen::Matrix3d R = level_camera_from_camera(body_from_camera.rotation, *attitude);
+  return {R * camera_from_target.rotation, R * camera_from_target.translation};
+}
+
+GroundView ground_view(const Frame& frame, const Step& step, const Template& model,
+                       const Task& task, double chain_ms) {
+  GroundView view;
+  view.row = log_row(frame, model, step);
+  view.gray = frame.gray.clone();
+  const std::vector<Feature> desired = desired_features(task);
+  for (std::size_t i = 0; i < view.goal_corners.size(); ++i) {
+    view.goal_corners[i] = task.camera.to_pixel(desired[i].at);
+  }
+  for (const PixelPair& pair_of : step.track.inliers) view.inliers.push_back(pair_of.in_image);
+  if (step.pose) {
+    view.seen = levelled(step.pose->camera_from_target, frame.attitude, task.body_from_camera);
+  }
+  view.chain_ms = chain_ms;
+  return view;
+}
+
+std::string json(const GroundView& view) {
+  Json all;
+  all["frame"] = view.row.frame;
+  all["stamp_s"] = view.row.stamp_s;
+  all["size_px"] = {view.gray.cols, view.gray.rows};
+  add_track(all, view.row);
+  all["goal"] = pairs(view.goal_corners);
+  all["inliers"] = pairs(view.inliers);
+  add_decision(all, view.row);
+  all["chain_ms"] = rounded(view.chain_ms);
+  all["distance_m"] = view.seen ? Json(view.seen->translation.norm()) : Json();
+  return all.dump();
+}
+
+}  // namespace kestrel

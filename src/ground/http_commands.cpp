@@ -1,0 +1,118 @@
+#include <nlohmann/json.hpp>
+
+#include "kestrel/ground/request_guard.hpp"
+
+#include "http_parts.hpp"
+
+namespace kestrel {
+namespace {
+
+using Json = nlohmann::json;
+using httplib::Request;
+using httplib::Response;
+
+int status_of(Answer::Kind kind) {
+  switch (kind) {
+    case Answer::Kind::Done:
+      return 200;
+    case Answer::Kind::Refused:
+      return 409;
+    case Answer::Kind::Stale:
+      return 425;
+    case Answer::Kind::Stranger:
+      return 410;
+  }
+  return 500;
+}
+
+Json verdict_json(const TemplateVerdict& v) {
+  return {{"grade", name(v.grade)},
+          {"words", v.words},
+          {"keypoints", v.keypoints},
+          {"blocks", v.blocks},
+          {"spread", v.spread},
+          {"self_likeness", v.self_likeness},
+          {"likeness_places", v.likeness_places}};
+}
+
+void answer(const Reply& reply, FlightMode mode, Response& response) {
+  Json all{{"words", reply.answer.words}, {"mode", name(mode)}};
+  all["done"] = reply.answer.kind == Answer::Kind::Done;
+  if (!reply.client.empty()) all["client"] = reply.client;
+  if (reply.verdict) all["verdict"] = verdict_json(*reply.verdict);
+  if (reply.width_m) all["width_m"] = *reply.width_m;
+  response.status = status_of(reply.answer.kind);
+  response.set_content(all.dump(), "application/json");
+}
+
+/// The page's own origin may read the answers; for a request of another page, false.
+bool admits_origin(Shared& shared, const Request& request, Response& response) {
+  if (!request.has_header("Origin")) return true;  // no browser
+  const std::string origin = request.get_header_value("Origin");
+  if (!is_own_origin(origin, request.get_header_value("Host"), shared.page_port)) {
+    ++shared.refusals.foreign;
+    say(response, 403, "commands are taken from the page of this program only");
+    return false;
+  }
+  response.set_header("Access-Control-Allow-Origin", origin);
+  response.set_header("Vary", "Origin");
+  return true;
+}
+
+/// The commands of all pages together, stops apart, are so many a second and no more.
+class CommandRate {
+ public:
+  explicit CommandRate(double per_s) : bucket_({per_s, 2 * per_s}) {}
+  bool takes(double now_s) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return bucket_.take(now_s);
+  }
+
+ private:
+  std::mutex mutex_;
+  TokenBucket bucket_;
+};
+
+void take_command(Shared& shared, CommandRate& rate, const Request& request, Response& response) {
+  if (!admits_origin(shared, request, response) || !lets_in(shared, request, response)) return;
+  const auto parsed = parse_command(request.body);
+  if (const auto* why = std::get_if<std::string>(&parsed)) {
+    ++shared.refusals.malformed;
+    return say(response, 400, *why);
+  }
+  const auto& command = std::get<GroundCommand>(parsed);
+  const double now_s = shared.now_s();
+  if (!is_stop(command.ask) && !rate.takes(now_s)) {
+    ++shared.refusals.too_many;
+    return say(response, 429, "too many commands; wait a second");
+  }
+  const Reply reply = shared.desk.handle(command, now_s);
+  if (reply.answer.kind == Answer::Kind::Stale) ++shared.refusals.stale;
+  answer(reply, shared.desk.mode(), response);
+}
+
+/// A browser asks first whether a page of another port may send what it wants to send (the
+/// preflight of the fetch standard, "CORS").
+void take_preflight(Shared& shared, const Request& request, Response& response) {
+  if (!admits_origin(shared, request, response)) return;
+  response.set_header("Access-Control-Allow-Methods", "POST");
+  response.set_header("Access-Control-Allow-Headers", "Authorization, Content-Type");
+  response.set_header("Access-Control-Max-Age", "600");
+  response.status = 204;
+}
+
+}  // namespace
+
+void serve_commands(httplib::Server& server, Shared& shared) {
+  const auto rate = std::make_shared<CommandRate>(shared.options.commands_per_s);
+  server.set_default_headers(
+      {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}});
+  server.Options("/command", [&shared](const Request& request, Response& response) {
+    take_preflight(shared, request, response);
+  });
+  server.Post("/command", [&shared, rate](const Request& request, Response& response) {
+    take_command(shared, *rate, request, response);
+  });
+}
+
+}  // namespace kestrel

@@ -1,0 +1,128 @@
+#include <nlohmann/json.hpp>
+
+#include "kestrel/ground/request_guard.hpp"
+#include "kestrel/ground/stream_frame.hpp"
+
+#include "http_parts.hpp"
+#include "page_parts.hpp"
+
+namespace kestrel {
+namespace {
+
+using Json = nlohmann::json;
+using httplib::Request;
+using httplib::Response;
+
+/// Nothing from elsewhere, nothing inline, nothing but the stream and the commands to talk to.
+std::string content_policy(std::string_view host, std::uint16_t command_port) {
+  return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+         "connect-src 'self' http://" +
+         std::string(host) + ':' + std::to_string(command_port) +
+         "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+std::string html_with_port(std::uint16_t command_port) {
+  constexpr std::string_view kPlace = "{{COMMAND_PORT}}";
+  std::string html(ground_html());
+  html.replace(html.find(kPlace), kPlace.size(), std::to_string(command_port));
+  return html;
+}
+
+void give_html(Shared& shared, const Request& request, Response& response) {
+  const std::string header = request.get_header_value("Host");
+  const std::string_view host = plain_host(header);
+  if (host.empty()) {
+    ++shared.refusals.foreign;
+    return say(response, 421, "call this machine by its number or localhost, not by another name");
+  }
+  response.set_header("Content-Security-Policy", content_policy(host, shared.command_port));
+  response.set_content(html_with_port(shared.command_port), "text/html; charset=utf-8");
+}
+
+/// A place among the viewers, given back where it ends.
+class Seat {
+ public:
+  explicit Seat(Shared& shared) : shared_(shared) {
+    has_ = ++shared_.viewers <= shared_.options.max_streams;
+  }
+  ~Seat() { --shared_.viewers; }
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
+  bool has() const { return has_; }
+
+ private:
+  Shared& shared_;
+  bool has_ = false;
+};
+
+/// Sends the newest frame that was not sent yet; when none comes for a second, how things stand, so
+/// that the page knows the line from the camera. False when the stream is over.
+bool send_next(Shared& shared, std::uint64_t& known, httplib::DataSink& sink) {
+  constexpr double kLongest_s = 1;
+  const auto frame = shared.frames.newer_than(known, kLongest_s);
+  if (shared.frames.is_closed()) return false;
+  if (!frame.value) {
+    const std::string words = stream_frame("{\"desk\":" + desk_json(shared) + "}", {});
+    return sink.write(words.data(), words.size());
+  }
+  known = frame.number;
+  return sink.write(frame.value->data(), frame.value->size());
+}
+
+void give_stream(Shared& shared, const Request& request, Response& response) {
+  if (!lets_in(shared, request, response)) return;
+  const auto seat = std::make_shared<Seat>(shared);
+  if (!seat->has()) {
+    ++shared.refusals.too_many;
+    return say(response, 503, "too many viewers; close another page");
+  }
+  const auto known = std::make_shared<std::uint64_t>(0);
+  response.set_chunked_content_provider(
+      "application/octet-stream", [&shared, seat, known](std::size_t, httplib::DataSink& sink) {
+        return send_next(shared, *known, sink);
+      });
+}
+
+}  // namespace
+
+std::string desk_json(const Shared& shared) {
+  const DeskStatus s = shared.desk.status();
+  const Eigen::Vector4d speed = s.limits.speed.vector();
+  Json events = Json::array();
+  for (const GroundEvent& e : s.events) {
+    events.push_back({{"number", e.number}, {"stamp_s", e.stamp_s}, {"words", e.words}});
+  }
+  const RefusalCounts& r = shared.refusals;
+  const long refused = r.wrong_token + r.foreign + r.malformed + r.too_many + r.stale;
+  return Json{{"mode", name(s.mode)},
+              {"commander", s.commander},
+              {"asker", s.asker},
+              {"gain_per_s", s.gain_per_s},
+              {"most_gain_per_s", s.most_gain_per_s},
+              {"speed", std::vector<double>(speed.begin(), speed.end())},
+              {"events", events},
+              {"viewers", shared.viewers.load()},
+              {"refused", refused}}
+      .dump();
+}
+
+void serve_page(httplib::Server& server, Shared& shared) {
+  server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
+                              {"Referrer-Policy", "no-referrer"},
+                              {"Cache-Control", "no-store"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"}});
+  server.Get("/", [&shared](const Request& request, Response& response) {
+    give_html(shared, request, response);
+  });
+  server.Get("/ground.css", [](const Request&, Response& response) {
+    response.set_content(std::string(ground_css()), "text/css; charset=utf-8");
+  });
+  server.Get("/ground.js", [](const Request&, Response& response) {
+    response.set_content(std::string(ground_script()), "text/javascript; charset=utf-8");
+  });
+  server.Get("/stream", [&shared](const Request& request, Response& response) {
+    give_stream(shared, request, response);
+  });
+}
+
+}  // namespace kestrel

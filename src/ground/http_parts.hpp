@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <httplib.h>
+#undef _res  // a macro of resolv.h; Eigen has a name of that kind
+
+#include "kestrel/ground/access_token.hpp"
+#include "kestrel/ground/ground_station.hpp"
+#include "kestrel/ground/latest_value.hpp"
+#include "kestrel/link/token_bucket.hpp"
+
+// The two servers behind GroundStation.
+namespace kestrel {
+
+/// Counts that several threads add to.
+struct RefusalCounts {
+  std::atomic<long> wrong_token{0};
+  std::atomic<long> foreign{0};
+  std::atomic<long> malformed{0};
+  std::atomic<long> too_many{0};
+  std::atomic<long> stale{0};
+};
+
+/// A server and the thread it listens in. Stops and joins where it ends.
+class HttpServer {
+ public:
+  /// threads: how many connections are served at a time; longer ones wait.
+  explicit HttpServer(std::size_t threads);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  httplib::Server& routes() { return server_; }
+
+  /// Listens when this returns, and answers its port. Throws std::runtime_error when it cannot.
+  std::uint16_t listen(const std::string& host, std::uint16_t port);
+  void stop();
+
+ private:
+  httplib::Server server_;
+  std::thread thread_;
+};
+
+/// Encoded frames of the newest view: words and picture.
+using EncodedFrames = LatestValue<std::string>;
+
+/// What both servers look at.
+struct Shared {
+  const GroundOptions options;
+  const AccessToken token;
+  const GroundStation::Clock now_s;
+  GroundDesk desk;
+  RefusalCounts refusals;
+  EncodedFrames frames;
+  std::atomic<int> viewers{0};
+  std::atomic<std::uint16_t> page_port{0};
+  std::atomic<std::uint16_t> command_port{0};
+};
+
+/// Answers 421 to a host that is no number and 401 without the token; true when neither was.
+bool lets_in(Shared& shared, const httplib::Request& request, httplib::Response& response);
+
+/// Answers with one sentence in JSON: {"words": ...}.
+void say(httplib::Response& response, int status, const std::string& words);
+
+/// Page, scripts and streams.
+void serve_page(httplib::Server& server, Shared& shared);
+
+/// Commands.
+void serve_commands(httplib::Server& server, Shared& shared);
+
+/// How the desk stands, JSON: mode, commander, asker, gain_per_s, most_gain_per_s, speed, events,
+/// viewers, refused.
+std::string desk_json(const Shared& shared);
+
+}  // namespace kestrel

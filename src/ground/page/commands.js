@@ -1,0 +1,39 @@
+// Commands to the program, at a port of their own: streams may hold all connections of the page's.
+const Commands = (() => {
+  const port = document.querySelector('meta[name="command-port"]').content;
+  const address = `${location.protocol}//${location.hostname}:${port}/command`;
+  let token = "", client = "", number = 0;
+
+  async function post(command) {
+    const asked = performance.now();
+    const answer = await fetch(address, {
+      method: "POST", cache: "no-store", signal: AbortSignal.timeout(5000),
+      headers: { Authorization: "Bearer " + token, "Content-Type": "application/json" },
+      body: JSON.stringify(command),
+    });
+    const reply = await answer.json();
+    return { ...reply, status: answer.status, took_ms: performance.now() - asked };
+  }
+  async function join() {
+    const reply = await post({ do: "join" });
+    if (!reply.client) throw new Error(reply.words);
+    client = reply.client;
+    number = 0;
+  }
+  // A command of this page, numbered so that none counts twice.
+  async function give(word, more = {}) {
+    if (word === "abort" || word === "hover") return post({ do: word });
+    if (!client) await join();
+    let reply = await post({ do: word, client, number: ++number, ...more });
+    if (reply.status === 410) {  // the program was started anew, or has forgotten this page
+      await join();
+      reply = await post({ do: word, client, number: ++number, ...more });
+    }
+    return reply;
+  }
+  return {
+    give,
+    enter(nextToken) { token = nextToken; client = ""; },
+    client: () => client,
+  };
+})();

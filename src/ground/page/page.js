@@ -1,0 +1,282 @@
+// The page: what is shown where, and what the buttons do.
+const at = id => document.getElementById(id);
+const plots = {
+  errors: new Plot("plot_errors", ["norm", "x", "y", "x", "y", "x", "y", "x", "y"]),
+  twist: new Plot("plot_twist", ["vx", "vy", "vz", "wx", "wy", "wz"]),
+  command: new Plot("plot_command", ["forward", "right", "down", "yaw", "~forward", "~right", "~down", "~yaw"]),
+  condition: new Plot("plot_condition", ["condition"]),
+  time: new Plot("plot_time", ["chain", "behind"]),
+};
+let token = "", desk = null, frozen = null, lastPicture_ms = 0, told = 0, drag = null, alive = null;
+
+// ---- what the program says
+
+const kMode = { hover: ["Hover: zero velocity", "so"], servo: ["Servoing", "ok"], aborted: ["ABORTED: zero velocity", "bad"] };
+
+function showDesk(next) {
+  desk = next;
+  const [words, colour] = kMode[desk.mode];
+  badge("mode", words, colour);
+  const mine = commanding();
+  at("take").hidden = mine;
+  at("release").hidden = !mine;
+  at("release").textContent = desk.asker ? "Give command to the page that asks" : "Give up command";
+  at("start").disabled = !mine || desk.mode !== "hover";
+  at("reset").hidden = desk.mode !== "aborted";
+  at("reset").disabled = !mine;
+  for (const id of ["hold_view", "gain", "freeze"]) at(id).disabled = !mine;
+  at("gain_shown").textContent = `${desk.gain_per_s.toPrecision(2)} of ${desk.most_gain_per_s.toPrecision(2)} 1/s`;
+  if (document.activeElement !== at("gain")) at("gain").value = 100 * desk.gain_per_s / desk.most_gain_per_s;
+  showEvents();
+}
+
+function commanding() { return desk && desk.commander !== "" && desk.commander === Commands.client(); }
+
+function badge(id, words, colour) {
+  if (at(id).textContent !== words) at(id).textContent = words;
+  at(id).className = "badge " + colour;
+}
+
+function showEvents() {
+  for (const event of desk.events) {
+    if (event.number <= told) continue;
+    told = event.number;
+    const item = document.createElement("li"), time = document.createElement("time");
+    time.textContent = event.stamp_s.toFixed(1) + " s";
+    item.append(time, event.words);
+    at("events").prepend(item);
+  }
+  while (at("events").children.length > 100) at("events").lastChild.remove();
+}
+
+const kMiss = { no_image: "no picture", few_keypoints: "too little texture in sight", few_matches: "too few matches",
+  no_consensus: "matches do not agree", bad_outline: "no possible view", undetermined: "too uncertain",
+  not_alike: "does not look like the template", ambiguous: "two places look alike" };
+
+function showSight(view) {
+  const sure = Math.round(100 * view.confidence) + " % sure";
+  if (view.status === "found") badge("sight", "Target seen, " + sure, view.confidence > 0.5 ? "ok" : "so");
+  else if (view.status === "coasting") badge("sight", "Target hidden for " + view.age_s.toFixed(1) + " s", "so");
+  else badge("sight", "Target lost: " + (kMiss[view.miss] || "not seen"), "bad");
+}
+
+function showNumbers(view, words) {
+  const v = list => list ? list.map(x => x.toFixed(2)).join("  ") : "–";
+  const rows = {
+    "Frame": view.frame + ", " + view.stamp_s.toFixed(2) + " s",
+    "Distance": view.distance_m === null ? "–" : view.distance_m.toFixed(2) + " m",
+    "Command rests on": view.state || "–",
+    "Sent": v(view.sent) + "  m/s, rad/s",
+    "Wanted": v(view.wanted),
+    "Most allowed": v(desk.speed),
+    "Error": view.error_norm === null ? "–" : view.error_norm.toFixed(4),
+    "Condition": view.condition === null ? "–" : view.condition.toFixed(0),
+    "Found by": view.stage,
+    "Chain": view.chain_ms.toFixed(1) + " ms",
+    "Behind": words.encode_ms.toFixed(0) + " ms in the program",
+    "Command": desk.commander === "" ? "nobody" : commanding() ? "this page" : "another page",
+    "Viewers": desk.viewers + (desk.refused ? `, ${desk.refused} requests refused` : ""),
+  };
+  const list = at("numbers");
+  Object.entries(rows).forEach(([name, value], i) => {
+    if (!list.children[2 * i]) list.append(document.createElement("dt"), document.createElement("dd"));
+    list.children[2 * i].textContent = name;
+    list.children[2 * i + 1].textContent = value;
+  });
+}
+
+async function showFrame({ words, jpeg }) {
+  showDesk(words.desk);
+  if (!words.view) {
+    at("line").textContent = `no new picture for ${((performance.now() - lastPicture_ms) / 1000).toFixed(0)} s`;
+    return;
+  }
+  const view = words.view;
+  lastPicture_ms = performance.now();
+  at("line").textContent = frozen === null ? "live" : "the picture is frozen; what flies goes on";
+  if (frozen === null && jpeg.length) {
+    Picture.show(await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" })), view);
+  }
+  showSight(view);
+  showNumbers(view, words);
+  plots.errors.add(view.stamp_s, view.errors && [view.error_norm, ...view.errors]);
+  plots.twist.add(view.stamp_s, view.twist);
+  plots.command.add(view.stamp_s, view.sent && [...view.sent, ...view.wanted]);
+  plots.condition.add(view.stamp_s, [view.condition]);
+  plots.time.add(view.stamp_s, [view.chain_ms, words.encode_ms]);
+  document.documentElement.dataset.frame = view.frame;  // for those who watch the page
+}
+
+// ---- what the operator wants
+
+function say(words, colour) {
+  at("answer").textContent = words;
+  at("answer").className = "answer " + colour;
+}
+
+async function give(word, more) {
+  try {
+    const reply = await Commands.give(word, more);
+    say(`${reply.words} (${reply.took_ms.toFixed(0)} ms)`, reply.done ? "ok" : "bad");
+    return reply;
+  } catch (error) {
+    say(`${word}: no answer from the program (${error.message})`, "bad");
+    return { done: false };
+  }
+}
+
+async function take() {
+  const reply = await give("take");
+  if (reply.done && !alive) alive = setInterval(() => Commands.give("alive").catch(() => {}), 500);
+}
+
+async function release() {
+  clearInterval(alive);
+  alive = null;
+  await give("release");
+}
+
+// A frozen picture is kept by the program too: the template is cut from exactly what is seen here.
+async function freeze() {
+  const frame = Picture.frame();
+  if (frozen !== null || frame === null) return frozen !== null;
+  frozen = frame;
+  const reply = await give("freeze", { frame });
+  if (!reply.done) { goLive(); return false; }
+  at("live").hidden = false;
+  at("rectangle").hidden = false;
+  return true;
+}
+
+function goLive() {
+  frozen = null;
+  Picture.mark(null);
+  at("live").hidden = at("rectangle").hidden = true;
+  at("use").disabled = true;
+  at("verdict").textContent = "";
+}
+
+function rectangle() {
+  const n = id => Math.round(Number(at(id).value));
+  return { x: n("box_x"), y: n("box_y"), w: n("box_w"), h: n("box_h") };
+}
+
+function setRectangle(r) {
+  at("box_x").value = r.x; at("box_y").value = r.y; at("box_w").value = r.w; at("box_h").value = r.h;
+  Picture.mark(r);
+}
+
+async function examine() {
+  const r = rectangle();
+  at("use").disabled = true;
+  at("verdict").textContent = "looking at it …";
+  const reply = await give("examine", { box: [r.x, r.y, r.w, r.h] });
+  const v = reply.verdict;
+  at("verdict").textContent = v
+    ? `${v.grade.toUpperCase()}: ${v.words}. ${v.keypoints} keypoints, texture in ${Math.round(100 * v.spread)} % of it, `
+      + `${Math.round(100 * v.self_likeness)} % like itself elsewhere.`
+    : reply.words || "";
+  if (!v) return;
+  at("width_m").value = Number(reply.width_m.toPrecision(3));
+  at("use").disabled = false;
+  at("use").scrollIntoView({ block: "nearest" });
+}
+
+async function use() {
+  const reply = await give("use", { width_m: Number(at("width_m").value) });
+  if (reply.done) { Picture.forget(); goLive(); }
+}
+
+function cornersToRectangle(a, b) {
+  return { x: Math.min(a.x, b.x), y: Math.min(a.y, b.y), w: Math.abs(a.x - b.x), h: Math.abs(a.y - b.y) };
+}
+
+function onDown(event) {
+  if (!commanding()) return say("Take the command first; then a rectangle can be drawn.", "bad");
+  event.preventDefault();
+  Picture.canvas.setPointerCapture(event.pointerId);
+  drag = { from: Picture.place(event), ready: freeze() };
+}
+
+function onMove(event) {
+  if (drag) Picture.mark(cornersToRectangle(drag.from, Picture.place(event)));
+}
+
+async function onUp(event) {
+  if (!drag) return;
+  const { from, ready } = drag, r = cornersToRectangle(from, Picture.place(event));
+  drag = null;
+  if (!(await ready)) return;
+  setRectangle(r);
+  if (r.w >= 16 && r.h >= 16) await examine();
+  else say("The rectangle is too small: at least 16x16 px.", "bad");
+}
+
+// ---- wiring
+
+const kKeys = { Escape: () => give("abort"), h: () => give("hover"), s: () => at("start").click(),
+  v: () => at("hold_view").click(), c: () => at("take").click(), f: () => at("freeze").click() };
+
+function wire() {
+  const on = (id, action) => at(id).addEventListener("click", action);
+  on("abort", () => give("abort"));
+  on("hover", () => give("hover"));
+  on("start", () => give("start"));
+  on("reset", () => give("reset"));
+  on("hold_view", () => give("hold_view"));
+  on("take", take);
+  on("release", release);
+  on("freeze", freeze);
+  on("live", goLive);
+  on("examine", examine);
+  on("use", use);
+  at("gain").addEventListener("change", () => give("gain", { gain_per_s: at("gain").value / 100 * desk.most_gain_per_s }));
+  for (const id of ["box_x", "box_y", "box_w", "box_h"]) at(id).addEventListener("input", () => Picture.mark(rectangle()));
+  Picture.canvas.addEventListener("pointerdown", onDown);
+  Picture.canvas.addEventListener("pointermove", onMove);
+  Picture.canvas.addEventListener("pointerup", onUp);
+  document.addEventListener("keydown", event => {
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const writes = /^(text|password|number)$/.test(event.target.type || "") && key !== "Escape";
+    if (!kKeys[key] || writes || event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    kKeys[key]();
+  });
+  setInterval(() => { for (const plot of Object.values(plots)) plot.draw(); }, 200);
+  at("entry").addEventListener("submit", event => {
+    event.preventDefault();
+    enter(at("token").value.trim());
+  });
+}
+
+function askToken() {
+  at("entry").hidden = false;
+  at("station").hidden = true;
+  badge("mode", "token wanted", "bad");
+  at("token").focus();
+}
+
+async function enter(next) {
+  token = next;
+  Commands.enter(token);
+  sessionStorage.setItem("token", token);
+  at("entry").hidden = true;
+  at("station").hidden = false;
+  for (;;) {
+    try {
+      await readStream(token, showFrame);
+    } catch (error) {
+      if (error.message === "token") { sessionStorage.removeItem("token"); return askToken(); }
+      badge("mode", "no connection", "bad");
+      badge("sight", "nothing known", "bad");
+      at("line").textContent = `${error.message}; trying again`;
+    }
+    await new Promise(wake => setTimeout(wake, 1000));
+  }
+}
+
+wire();
+const given = /^#token=([0-9a-f]+)$/.exec(location.hash);
+if (given) history.replaceState(null, "", location.pathname);  // so that it is in no bookmark
+const known = given ? given[1] : sessionStorage.getItem("token");
+if (known) enter(known); else askToken();

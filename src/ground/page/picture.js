@@ -1,0 +1,80 @@
+// The picture and what is drawn over it, both of the same frame.
+const Picture = (() => {
+  const canvas = document.getElementById("picture"), to = canvas.getContext("2d");
+  const kTrace = 90;  // frames of the corners' way that are drawn
+  let traces = [[], [], [], []], image = null, view = null, drawn = null;
+
+  function path(points, colour, width, dashes) {
+    if (!points || points.some(p => p[0] === null)) return;
+    to.beginPath();
+    points.forEach((p, i) => i ? to.lineTo(p[0], p[1]) : to.moveTo(p[0], p[1]));
+    to.closePath();
+    stroke(colour, width, dashes);
+  }
+  function stroke(colour, width, dashes) {
+    to.setLineDash(dashes || []);
+    to.lineWidth = width + 2; to.strokeStyle = "rgba(0,0,0,.65)"; to.stroke();
+    to.lineWidth = width; to.strokeStyle = colour; to.stroke();
+    to.setLineDash([]);
+  }
+  function dots(points, colour, radius) {
+    for (const p of points || []) {
+      if (p[0] === null) continue;
+      to.beginPath(); to.arc(p[0], p[1], radius, 0, 7);
+      to.fillStyle = colour; to.fill();
+      to.lineWidth = 1; to.strokeStyle = "#000"; to.stroke();
+    }
+  }
+  function ways() {
+    for (const trace of traces) {
+      if (trace.length < 2) continue;
+      to.beginPath();
+      trace.forEach((p, i) => i ? to.lineTo(p[0], p[1]) : to.moveTo(p[0], p[1]));
+      to.lineWidth = 1.5; to.strokeStyle = "#f2cc4d"; to.stroke();
+    }
+  }
+  function draw() {
+    if (!image) return;
+    if (canvas.width !== image.width || canvas.height !== image.height) {
+      canvas.width = image.width; canvas.height = image.height;
+    }
+    to.drawImage(image, 0, 0);
+    if (view) overlay();
+    if (drawn) path([[drawn.x, drawn.y], [drawn.x + drawn.w, drawn.y],
+      [drawn.x + drawn.w, drawn.y + drawn.h], [drawn.x, drawn.y + drawn.h]], "#6fc0f0", 2, [6, 4]);
+  }
+  function overlay() {
+    const w = view.window;
+    if (w[2] > 0) { to.beginPath(); to.rect(w[0], w[1], w[2], w[3]); to.lineWidth = 3;
+      to.strokeStyle = "rgba(255,255,255,.7)"; to.stroke(); to.lineWidth = 1.5; to.strokeStyle = "#000"; to.stroke(); }
+    dots(view.inliers, "#58a6ff", 2);
+    path(view.goal, "#ff5d52", 2, [8, 4]);
+    dots(view.goal, "#ff5d52", 5);
+    ways();
+    path(view.predicted, "#aab4bf", 2, [3, 4]);
+    path(view.corners, "#3ee07f", 2);
+    dots(view.corners, "#3ee07f", 5);
+  }
+  return {
+    canvas,
+    show(nextImage, nextView) {
+      if (image && image.close && image !== nextImage) image.close();
+      image = nextImage; view = nextView;
+      traces.forEach((trace, i) => {
+        if (view.corners) trace.push(view.corners[i]);
+        if (trace.length > kTrace || (!view.corners && trace.length)) trace.shift();
+      });
+      draw();
+    },
+    mark(rectangle) { drawn = rectangle; draw(); },
+    forget() { traces = [[], [], [], []]; },
+    frame() { return view ? view.frame : null; },
+    // A place of the pointer in pixels of the picture.
+    place(event) {
+      const box = canvas.getBoundingClientRect();
+      const clip = (x, most) => Math.max(0, Math.min(most, Math.round(x)));
+      return { x: clip((event.clientX - box.left) * canvas.width / box.width, canvas.width),
+        y: clip((event.clientY - box.top) * canvas.height / box.height, canvas.height) };
+    },
+  };
+})();

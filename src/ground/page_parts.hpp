@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+namespace kestrel {
+
+/// The page (src/ground/page/ground.html); {{COMMAND_PORT}} stands for the port of the commands.
+std::string_view ground_html();
+
+/// Its style sheet (ground.css).
+std::string_view ground_css();
+
+/// Its script (stream.js, picture.js, plots.js, commands.js, page.js, in one).
+std::string_view ground_script();
+
+}  // namespace kestrel

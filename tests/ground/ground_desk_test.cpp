@@ -1,0 +1,209 @@
+#include "kestrel/ground/ground_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "loop/camera_view.hpp"
+#include "loop/flight.hpp"
+
+namespace kestrel {
+namespace {
+
+struct Written final : CommandSink {
+  std::vector<VelocityCommand> all;
+  void send(const VelocityCommand& command, double) noexcept override { all.push_back(command); }
+  long failures() const override { return 0; }
+};
+
+/// A desk, and two viewers of which the first has the command.
+class Desk : public testing::Test {
+ protected:
+  Desk() {
+    first_ = desk_.handle(asked(Ask::Join, ""), 0).client;
+    second_ = desk_.handle(asked(Ask::Join, ""), 0).client;
+    EXPECT_EQ(give(Ask::Take).kind, Answer::Kind::Done);
+  }
+
+  GroundCommand asked(Ask ask, const std::string& client) {
+    GroundCommand command;
+    command.ask = ask;
+    command.client = client;
+    command.number = ++number_;
+    return command;
+  }
+  Answer give(Ask ask) { return desk_.handle(asked(ask, first_), 0).answer; }
+
+  /// A frame in which the camera stands before the target.
+  void show(std::int64_t index, const std::optional<TargetPose>& seen) {
+    auto view = std::make_shared<GroundView>();
+    view->row.frame = index;
+    view->row.stamp_s = double(index) / 30;
+    view->gray = picture();
+    view->seen = seen;
+    desk_.show(view);
+  }
+
+  const Task task_ = test::example_task(test::forward_camera());
+  static const cv::Mat& picture() {  // painted once
+    static const Task task = test::example_task(test::forward_camera());
+    static const cv::Mat painted = test::view(task.camera, task.goal);
+    return painted;
+  }
+  Written written_;
+  CommandGate gate_{written_};
+  GroundDesk desk_{task_, gate_, "run"};
+  std::string first_;
+  std::string second_;
+  std::uint64_t number_ = 0;
+};
+
+TEST_F(Desk, StandsStillUntilTheCommanderStarts) {
+  EXPECT_EQ(desk_.mode(), FlightMode::Hover);
+  EXPECT_FALSE(gate_.is_open());
+  EXPECT_EQ(desk_.handle(asked(Ask::Start, second_), 0).answer.kind, Answer::Kind::Refused);
+  EXPECT_FALSE(gate_.is_open());
+  EXPECT_EQ(give(Ask::Start).kind, Answer::Kind::Done);
+  EXPECT_EQ(desk_.mode(), FlightMode::Servo);
+  EXPECT_TRUE(gate_.is_open());
+}
+
+TEST_F(Desk, AnybodyStopsAtOnce) {
+  give(Ask::Start);
+  gate_.send({1, 0, 0, 0}, 1);
+  EXPECT_EQ(desk_.handle(asked(Ask::Hover, ""), 0).answer.kind, Answer::Kind::Done);
+  ASSERT_EQ(written_.all.size(), 2u);
+  EXPECT_TRUE(written_.all[1].vector().isZero(0));
+  give(Ask::Start);
+  EXPECT_EQ(desk_.handle(asked(Ask::Abort, "a stranger"), 0).answer.kind, Answer::Kind::Done);
+  EXPECT_FALSE(gate_.is_open());
+  EXPECT_EQ(give(Ask::Start).kind, Answer::Kind::Refused);
+  EXPECT_FALSE(gate_.is_open());
+  EXPECT_EQ(give(Ask::Reset).kind, Answer::Kind::Done);
+  EXPECT_FALSE(gate_.is_open()) << "reset is no start";
+  EXPECT_EQ(desk_.mode(), FlightMode::Hover);
+}
+
+TEST_F(Desk, AReplayedStartIsRefused) {
+  const GroundCommand start = asked(Ask::Start, first_);
+  EXPECT_EQ(desk_.handle(start, 0).answer.kind, Answer::Kind::Done);
+  desk_.handle(asked(Ask::Hover, ""), 0);
+  EXPECT_EQ(desk_.handle(start, 0).answer.kind, Answer::Kind::Stale);
+  EXPECT_EQ(desk_.mode(), FlightMode::Hover);
+}
+
+TEST_F(Desk, TheGainStaysWithinTheTasks) {
+  GroundCommand gain = asked(Ask::Gain, first_);
+  gain.gain_per_s = task_.servo.gain_per_s * 1.01;
+  EXPECT_EQ(desk_.handle(gain, 0).answer.kind, Answer::Kind::Refused);
+  EXPECT_FALSE(desk_.course());
+  gain.number = ++number_;
+  gain.gain_per_s = task_.servo.gain_per_s / 2;
+  EXPECT_EQ(desk_.handle(gain, 0).answer.kind, Answer::Kind::Done);
+  const auto course = desk_.course();
+  ASSERT_TRUE(course);
+  EXPECT_EQ(course->task.servo.gain_per_s, task_.servo.gain_per_s / 2);
+  EXPECT_FALSE(course->tracker);
+  EXPECT_FALSE(desk_.course()) << "once";
+}
+
+TEST_F(Desk, HoldsTheViewThatIsSeen) {
+  EXPECT_EQ(give(Ask::HoldView).kind, Answer::Kind::Refused);
+  show(0, std::nullopt);
+  EXPECT_EQ(give(Ask::HoldView).kind, Answer::Kind::Refused);
+  TargetPose seen = task_.goal;
+  seen.translation += Eigen::Vector3d(0.1, -0.05, 0.4);
+  show(1, seen);
+  EXPECT_EQ(give(Ask::HoldView).kind, Answer::Kind::Done);
+  const auto course = desk_.course();
+  ASSERT_TRUE(course);
+  EXPECT_EQ(course->task.goal.translation, seen.translation);
+}
+
+TEST_F(Desk, AGoalThatTheTaskRefusesChangesNothing) {
+  TargetPose behind = task_.goal;
+  behind.translation = -behind.translation;
+  show(0, behind);
+  const Answer answer = give(Ask::HoldView);
+  EXPECT_EQ(answer.kind, Answer::Kind::Refused);
+  EXPECT_NE(answer.words.find("goal"), std::string::npos);
+  EXPECT_FALSE(desk_.course());
+}
+
+TEST_F(Desk, ATemplateIsDrawnExaminedAndUsed) {
+  show(7, task_.goal);
+  give(Ask::Start);
+  GroundCommand use = asked(Ask::Use, first_);
+  use.width_m = 0.5;
+  EXPECT_EQ(desk_.handle(use, 0).answer.kind, Answer::Kind::Refused) << "nothing was drawn";
+  GroundCommand freeze = asked(Ask::Freeze, first_);
+  freeze.frame = 7;
+  ASSERT_EQ(desk_.handle(freeze, 0).answer.kind, Answer::Kind::Done);
+  GroundCommand examine = asked(Ask::Examine, first_);
+  const int width = picture().cols / 4;
+  const int height = picture().rows / 4;
+  examine.box = PixelBox{double((picture().cols - width) / 2),
+                         double((picture().rows - height) / 2), double(width), double(height)};
+  const Reply seen = desk_.handle(examine, 0);
+  ASSERT_EQ(seen.answer.kind, Answer::Kind::Done) << seen.answer.words;
+  ASSERT_TRUE(seen.verdict);
+  // Seen from the front, px and m are in the ratio of focal length and distance.
+  const double m_per_px = task_.goal.translation.z() / task_.camera.parameters().px;
+  EXPECT_NEAR(*seen.width_m, width * m_per_px, 1e-9);
+  EXPECT_FALSE(desk_.course()) << "an examination is no choice";
+  use.number = ++number_;
+  use.width_m = *seen.width_m;
+  ASSERT_EQ(desk_.handle(use, 0).answer.kind, Answer::Kind::Done);
+  EXPECT_EQ(desk_.mode(), FlightMode::Hover) << "a new template is a doubt";
+  const auto course = desk_.course();
+  ASSERT_TRUE(course && course->tracker);
+  EXPECT_EQ(course->tracker->model().width(), width);
+  EXPECT_NEAR(course->task.target_height_m, *seen.width_m * height / width, 1e-9);
+  // The goal is the place it was drawn from: on the axis, as far as the target.
+  EXPECT_NEAR(course->task.goal.translation.z(), task_.goal.translation.z(), 0.01);
+}
+
+TEST_F(Desk, AnOldPictureAndABadRectangleAreRefused) {
+  for (int i = 0; i <= int(GroundDesk::kKeptViews); ++i) show(i, std::nullopt);
+  GroundCommand freeze = asked(Ask::Freeze, first_);
+  freeze.frame = 0;
+  EXPECT_EQ(desk_.handle(freeze, 0).answer.kind, Answer::Kind::Refused);
+  freeze = asked(Ask::Freeze, first_);
+  freeze.frame = 1;
+  EXPECT_EQ(desk_.handle(freeze, 0).answer.kind, Answer::Kind::Done);
+  GroundCommand examine = asked(Ask::Examine, first_);
+  examine.box = PixelBox{-5, 0, 100, 100};
+  const Reply reply = desk_.handle(examine, 0);
+  EXPECT_EQ(reply.answer.kind, Answer::Kind::Refused);
+  EXPECT_NE(reply.answer.words.find("inside"), std::string::npos);
+  EXPECT_FALSE(reply.verdict);
+}
+
+TEST_F(Desk, ASilentCommanderLosesTheCommandAndAllAreTold) {
+  give(Ask::Start);
+  desk_.look_after(CommandPost::kSilence_s + 1);
+  const DeskStatus status = desk_.status();
+  EXPECT_EQ(status.commander, "");
+  EXPECT_EQ(status.mode, FlightMode::Servo);
+  ASSERT_FALSE(status.events.empty());
+  EXPECT_NE(status.events.back().words.find("silent"), std::string::npos);
+}
+
+TEST(Stopped, LeavesNothingToResume) {
+  Decision decision;
+  decision.wanted = decision.command = {1, 2, 3, 0.4};
+  decision.state = CommandState::Servo;
+  decision.next.stamp_s = 5;
+  decision.next.sent = decision.command;
+  decision.next.seen_stamp_s = 5;
+  const Decision still = stopped(decision);
+  EXPECT_TRUE(still.command.vector().isZero(0));
+  EXPECT_TRUE(still.next.sent.vector().isZero(0));
+  EXPECT_EQ(still.state, CommandState::Hover);
+  EXPECT_EQ(still.next.stamp_s, 5);
+  EXPECT_FALSE(still.next.seen_stamp_s);
+  EXPECT_EQ(still.wanted.vector(), decision.wanted.vector());
+}
+
+}  // namespace
+}  // namespace kestrel
