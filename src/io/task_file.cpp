@@ -157,7 +157,8 @@ Experiment read_experiment(const Section& root) {
                   read_pose_options(root),
                   read_servo_options(root),
                   read_command_limits(root),
-                  read_loss_options(root)};
+                  read_loss_options(root),
+                  read_timing_options(root)};
   Experiment e{root.file(), source, read_sink(root), task, {}, {}, {}, found.file, {}};
   e.sequence = read_recording(root, source, described);
   if (target.has("image")) e.template_image = target.path("image");

@@ -2,6 +2,7 @@
 
 #include "kestrel/geometry/plane_pose.hpp"
 #include "kestrel/io/yaml_section.hpp"
+#include "kestrel/loop/timing.hpp"
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
 #include "kestrel/vehicle/limits.hpp"
@@ -17,5 +18,6 @@ PlanePoseOptions read_pose_options(const Section& root);  // pose:
 ServoOptions read_servo_options(const Section& root);     // servo:
 CommandLimits read_command_limits(const Section& root);   // limits: {speed, acceleration}
 LossOptions read_loss_options(const Section& root);       // loss:
+TimingOptions read_timing_options(const Section& root);   // timing:
 
 }  // namespace kestrel
