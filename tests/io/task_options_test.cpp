@@ -153,7 +153,7 @@ TEST_F(TaskOptions, ReadTheTiming) {
   EXPECT_EQ(o.response.vertical_s, 0.6);
   EXPECT_EQ(o.response.yaw_s, 0.7);
   const TimingOptions none = read_timing_options(load("a: 1\n"));
-  EXPECT_EQ(none.predict, Prediction::Measured);
+  EXPECT_EQ(none.predict, Prediction::Off);
   EXPECT_FALSE(none.latency_s);
   EXPECT_THAT(error_of("timing: {gain_share: 0}\n", read_timing_options),
               AllOf(HasSubstr("t.yaml:1: timing: "), HasSubstr("gain_share")));

@@ -119,6 +119,7 @@ TEST(LateLoop, BearsAGainBeyondTheLimitOfTheLatency) {
 // Asked for with a velocity, and there is none: nothing is predicted.
 TEST(LateLoop, PredictsOnlyWhatItMay) {
   Task task = late_task(0.2);
+  task.timing.predict = Prediction::Measured;
   const HelicopterState s = WorldOptions::default_start();
   const TargetPose seen = (pose(s) * task.body_from_camera).inverse() * world_from_wall();
   const auto corners = features(seen, target_corners(task));
@@ -139,6 +140,7 @@ TEST(LateLoop, PredictsOnlyWhatItMay) {
 // they will be: the law's error is that of the features at the time the command is obeyed.
 TEST(LateLoop, ErrorIsThatOfThePlaceWhereTheCommandIsObeyed) {
   Task task = late_task(0.2);
+  task.timing.predict = Prediction::Measured;
   HelicopterState s = WorldOptions::default_start();
   s.yaw = 0.1;
   s.velocity_m_s << 0.5, -0.3, 0.2;  // and it is told to go on so

@@ -15,7 +15,7 @@ enum class Prediction {
 
 /// What the loop does about its own timing.
 struct TimingOptions {
-  Prediction predict = Prediction::Measured;
+  Prediction predict = Prediction::Off;
   double gain_share = 0.25;           // the most that the gain may be of gain_limit_per_s()
   std::optional<double> latency_s{};  // capture to command obeyed; empty: as it is measured
   VelocityResponse response{};
