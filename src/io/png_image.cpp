@@ -1,7 +1,10 @@
 #include <csetjmp>
 #include <cstring>
+#include <stdexcept>
 
 #include <png.h>
+
+#include "kestrel/io/image_codec.hpp"
 
 #include "image_formats.hpp"
 
@@ -89,6 +92,26 @@ std::optional<cv::Mat> decode_png(const std::vector<unsigned char>& bytes) {
   rows.reserve(std::size_t(size.height));
   for (int v = 0; v < size.height; ++v) rows.push_back(image.ptr(v));
   return reader.read_rows(rows) ? image : cv::Mat();
+}
+
+std::vector<unsigned char> encode_png(const cv::Mat& gray) {
+  if (gray.empty() || gray.type() != CV_8UC1) {
+    throw std::invalid_argument("only 8-bit grey pictures are written as PNG");
+  }
+  png_image head{};
+  head.version = PNG_IMAGE_VERSION;
+  head.width = png_uint_32(gray.cols);
+  head.height = png_uint_32(gray.rows);
+  head.format = PNG_FORMAT_GRAY;
+  head.flags = PNG_IMAGE_FLAG_FAST;
+  std::vector<unsigned char> bytes(PNG_IMAGE_PNG_SIZE_MAX(head));
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&head, bytes.data(), &size, 0, gray.data, png_int_32(gray.step[0]),
+                                nullptr) == 0) {
+    throw std::runtime_error(std::string("PNG: ") + head.message);
+  }
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace kestrel

@@ -124,5 +124,14 @@ TEST(EncodeJpeg, RefusesWhatIsNoPicture) {
   EXPECT_THROW(encode_jpeg(cv::Mat(4, 4, CV_8UC1), 0), std::invalid_argument);
 }
 
+TEST(EncodePng, KeepsEveryPixel) {
+  const cv::Mat grey = picture("encode png", CV_8UC1);
+  EXPECT_TRUE(same(cv::imdecode(encode_png(grey), cv::IMREAD_UNCHANGED), grey));
+  const cv::Mat part = grey(cv::Rect(3, 5, 20, 11));  // rows that do not touch
+  EXPECT_TRUE(same(decode_image(encode_png(part)), part));
+  EXPECT_THROW(encode_png(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(encode_png(picture("colour", CV_8UC3)), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -17,4 +17,8 @@ cv::Mat decode_image(const std::vector<unsigned char>& bytes);
 /// 1 to 100. Throws std::invalid_argument for any other picture.
 std::vector<unsigned char> encode_jpeg(const cv::Mat& picture, int quality);
 
+/// A PNG file of an 8-bit grey picture, every pixel as it is. Throws std::invalid_argument for any
+/// other picture or an empty one.
+std::vector<unsigned char> encode_png(const cv::Mat& gray);
+
 }  // namespace kestrel
