@@ -157,7 +157,8 @@ Experiment read_experiment(const Section& root) {
                   read_pose_options(root),
                   read_servo_options(root),
                   read_command_limits(root),
-                  read_loss_options(root)};
+                  read_loss_options(root),
+                  read_timing_options(root)};
   Experiment e{root.file(), source.text, read_sink(root), task, {},
                {},          {},          found.file,      {},   read_live_options(root)};
   e.sequence = read_recording(root, source, described);

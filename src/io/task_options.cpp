@@ -228,4 +228,22 @@ LossOptions read_loss_options(const Section& root) {
   return checked(*s, o);
 }
 
+TimingOptions read_timing_options(const Section& root) {
+  TimingOptions o;
+  const auto s = root.child_if("timing");
+  if (!s) return o;
+  o.predict = s->choice<Prediction>("predict",
+                                    {{name(Prediction::Off), Prediction::Off},
+                                     {name(Prediction::Measured), Prediction::Measured},
+                                     {name(Prediction::Commanded), Prediction::Commanded}},
+                                    o.predict);
+  o.gain_share = s->number("gain_share", o.gain_share);
+  if (s->has("latency_s")) o.latency_s = s->number("latency_s");
+  o.response.velocity_s = s->number("velocity_time_constant_s", o.response.velocity_s);
+  o.response.tilt_s = s->number("tilt_time_constant_s", o.response.tilt_s);
+  o.response.vertical_s = s->number("vertical_time_constant_s", o.response.vertical_s);
+  o.response.yaw_s = s->number("yaw_time_constant_s", o.response.yaw_s);
+  return checked(*s, o);
+}
+
 }  // namespace kestrel

@@ -31,7 +31,8 @@ LoopState start(const Tracker& tracker, const Frame& first) {
   return state;
 }
 
-Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task) {
+Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task,
+          const std::optional<Eigen::Vector3d>& velocity_ned_m_s) {
   const Template& model = tracker.model();
   Step s;
   s.track = tracker.track(frame, state.track);
@@ -43,7 +44,8 @@ Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Ta
     s.measured =
         corner_features(*s.track.image_from_template, model, s.pose->camera_from_target, task);
   }
-  s.decision = decide(s.measured, frame.attitude, frame.stamp_s, state.decision, task);
+  s.decision =
+      decide(s.measured, frame.attitude, frame.stamp_s, state.decision, task, velocity_ned_m_s);
   s.next.track = s.track.next;
   s.next.pose = s.pose ? s.pose->camera_from_target : state.pose;
   s.next.decision = s.decision.next;

@@ -85,6 +85,7 @@ void Task::check() const {
   check_group("servo", servo);
   check_group("limits", limits);
   check_group("loss", loss);
+  check_group("timing", timing);
   check_goal(*this);
 }
 

@@ -107,8 +107,9 @@ TEST_F(TaskFile, OpensImagesAndVideosRelativeToItself) {
 }
 
 TEST_F(TaskFile, LeavesLiveSourcesAndTheSimulationToTheApp) {
-  for (const char* source : {"camera:0", "dc1394", "dc1394:0123456789abcdef", "simulation",
-                             "http://h/v", "rtsp://h/v", "rtp://h:2", "udp://h:1", "sim:127.0.0.1:14570", "sim:./frames"}) {
+  for (const char* source :
+       {"camera:0", "dc1394", "dc1394:0123456789abcdef", "simulation", "http://h/v", "rtsp://h/v",
+        "rtp://h:2", "udp://h:1", "sim:127.0.0.1:14570", "sim:./frames"}) {
     const Experiment e = read(std::string("source: ") + source + "\n" + kOwn);
     EXPECT_EQ(e.source, source);
     EXPECT_FALSE(e.sequence.has_value());

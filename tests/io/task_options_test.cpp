@@ -172,6 +172,26 @@ TEST_F(TaskOptions, RefuseACaptureThatNoCameraHas) {
   EXPECT_THAT(error("exposure: 1"), AllOf(HasSubstr("exposure"), HasSubstr("exposure_s")));
 }
 
+TEST_F(TaskOptions, ReadTheTiming) {
+  const Section root = load(
+      "timing: {predict: commanded, gain_share: 0.5, latency_s: 0.2, velocity_time_constant_s: 1,\n"
+      "  tilt_time_constant_s: 0.2, vertical_time_constant_s: 0.6, yaw_time_constant_s: 0.7}\n");
+  const TimingOptions o = read_timing_options(root);
+  EXPECT_NO_THROW(root.done());
+  EXPECT_EQ(o.predict, Prediction::Commanded);
+  EXPECT_EQ(o.gain_share, 0.5);
+  EXPECT_EQ(o.latency_s, 0.2);
+  EXPECT_EQ(o.response.velocity_s, 1);
+  EXPECT_EQ(o.response.tilt_s, 0.2);
+  EXPECT_EQ(o.response.vertical_s, 0.6);
+  EXPECT_EQ(o.response.yaw_s, 0.7);
+  const TimingOptions none = read_timing_options(load("a: 1\n"));
+  EXPECT_EQ(none.predict, Prediction::Off);
+  EXPECT_FALSE(none.latency_s);
+  EXPECT_THAT(error_of("timing: {gain_share: 0}\n", read_timing_options),
+              AllOf(HasSubstr("t.yaml:1: timing: "), HasSubstr("gain_share")));
+}
+
 TEST_F(TaskOptions, NameTheSectionOfAnOptionOutOfRange) {
   EXPECT_THAT(error_of("a: 1\nservo: {gain_per_s: -1}\n", read_servo_options),
               AllOf(HasSubstr("t.yaml:2: servo: "), HasSubstr("gain_per_s")));

@@ -366,6 +366,20 @@ TEST_F(Loss, HoversForAStampThatDoesNotIncrease) {
 }
 
 // A clock set back for good must not ground the helicopter: one hover, then on with the new time.
+// After nonsense the clock may be anywhere: no model is flown up to there.
+TEST_F(Loss, StartsItsModelAnewAtOnceWhateverTheClockSays) {
+  Task task = task_;
+  task.timing.predict = Prediction::Commanded;
+  DecisionState state;
+  state.timing.latency_s = 0.1;
+  std::vector<Feature> nonsense = measured_;
+  nonsense[0].depth_m = std::nan("");
+  state = decide(nonsense, {}, 1.7e9, state, task).next;
+  state = decide(measured_, {}, 1.7e9 + 0.03, state, task).next;  // or it would take a day
+  EXPECT_EQ(state.motion.stamp_s, 1.7e9 + 0.03);
+  EXPECT_EQ(state.timing.latency_s, 0.1);
+}
+
 TEST_F(Loss, GoesOnWithAClockThatWasSetBack) {
   take_off();
   expect_hover(seen(3));

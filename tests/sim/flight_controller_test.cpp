@@ -95,6 +95,63 @@ TEST(FlightController, HoldsItsHeadingAgainstAPush) {
   EXPECT_LT(vehicle.motion().velocity_m_s.norm(), 0.1);
 }
 
+// In still air with perfect sensors it stays where it is for a minute: hover is an equilibrium of
+// body and controller together, and what is left is rounding.
+TEST(FlightController, DriftsNowhereInStillAir) {
+  Vehicle vehicle(RotorcraftSystem{}, heading(0.4), 1);
+  for (int i = 0; i < 1800; ++i) vehicle.advance(VelocityCommand::hover(), kPeriod_s);
+  EXPECT_LT(vehicle.motion().world_from_body.translation.norm(), 1e-6);
+  EXPECT_LT(std::abs(wrap_angle(attitude(vehicle.motion().world_from_body).yaw - 0.4)), 1e-6);
+}
+
+// Without the torque of the rotor, left and right are each other's mirror image, to rounding; with
+// it, which rolls the helicopter 2.5 deg, they differ by a few per cent.
+TEST(FlightController, FliesToBothSidesAlike) {
+  const auto both = [](const RotorcraftSystem& system) {
+    Vehicle right(system, {}, 1);
+    Vehicle left(system, {}, 1);
+    double worst = 0;
+    for (int i = 0; i < 120; ++i) {
+      right.advance({0.5, 1, 0.2, 0.3}, kPeriod_s);
+      left.advance({0.5, -1, 0.2, -0.3}, kPeriod_s);
+      Eigen::Vector3d mirrored = left.motion().world_from_body.translation;
+      mirrored.y() *= -1;
+      worst = std::max(worst, (right.motion().world_from_body.translation - mirrored).norm());
+    }
+    return worst;
+  };
+  RotorcraftSystem without_torque;
+  without_torque.body.figure_of_merit = 1e12;
+  EXPECT_LT(both(without_torque), 1e-6);
+  EXPECT_LT(both({}), 0.1);  // of 4 m
+}
+
+// The work of the thrust in a climb is what the weight gains and the air takes: T v = W v + D v at
+// the steady speed, so the thrust exceeds the weight by the heave damping and the drag alone.
+TEST(FlightController, ClimbsByTheThrustThatTheAirAsksFor) {
+  const RotorcraftSystem system;
+  RotorcraftState state = hovering({0, 0, 0}, 0, system.body);
+  FlightControllerState memory = holding(state, system.body);
+  for (int i = 0; i < 1500; ++i) {
+    MeasuredMotion m;
+    m.attitude = attitude({state.world_from_body.toRotationMatrix(), state.position_m});
+    m.rate_rad_s = state.rate_rad_s;
+    m.velocity_m_s = state.velocity_m_s;
+    const FlightControl now =
+        control({0, 0, -1.5, 0}, m, memory, 0.01, system.controller, system.body);
+    memory = now.next;
+    state = advanced(state, now.controls, Eigen::Vector3d::Zero(), 0.01, system.body);
+  }
+  const double v = 1.5;
+  const RotorcraftOptions& o = system.body;
+  const double air_n =
+      o.mass_kg * o.damping_per_s.z() * v + 0.5 * o.air_density_kg_m3 * o.drag_area_m2.z() * v * v;
+  const double weight_n = o.mass_kg * o.gravity_m_s2;
+  const double roll = attitude({state.world_from_body.toRotationMatrix(), state.position_m}).roll;
+  EXPECT_NEAR(state.velocity_m_s.z(), -v, 0.01);
+  EXPECT_NEAR(state.thrust_n * std::cos(roll) - weight_n, air_n, 0.05 * air_n);
+}
+
 TEST(FlightController, TakesNonsenseForHover) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const RotorcraftOptions body;

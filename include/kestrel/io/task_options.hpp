@@ -3,6 +3,7 @@
 #include "kestrel/geometry/plane_pose.hpp"
 #include "kestrel/io/live_options.hpp"
 #include "kestrel/io/yaml_section.hpp"
+#include "kestrel/loop/timing.hpp"
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
 #include "kestrel/vehicle/limits.hpp"
@@ -19,5 +20,6 @@ ServoOptions read_servo_options(const Section& root);     // servo:
 CommandLimits read_command_limits(const Section& root);   // limits: {speed, acceleration}
 LossOptions read_loss_options(const Section& root);       // loss:
 LiveOptions read_live_options(const Section& root);       // capture:
+TimingOptions read_timing_options(const Section& root);   // timing:
 
 }  // namespace kestrel

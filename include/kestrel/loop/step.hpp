@@ -39,7 +39,9 @@ std::vector<Feature> corner_features(const Homography& image_from_template, cons
 LoopState start(const Tracker& tracker, const Frame& first);
 
 /// track -> pose -> features -> decide: the body of the paper's figure 2. The tracker lends its
-/// memory; its options are those it was made with.
-Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task);
+/// memory; its options are those it was made with. velocity_ned_m_s: the vehicle's when the frame
+/// was captured, where somebody measured it.
+Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Task& task,
+          const std::optional<Eigen::Vector3d>& velocity_ned_m_s = std::nullopt);
 
 }  // namespace kestrel

@@ -6,6 +6,7 @@
 #include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/plane_pose.hpp"
 #include "kestrel/geometry/transform.hpp"
+#include "kestrel/loop/timing.hpp"
 #include "kestrel/servo/servo.hpp"
 #include "kestrel/vehicle/failsafe.hpp"
 #include "kestrel/vehicle/limits.hpp"
@@ -25,6 +26,7 @@ struct Task {
   ServoOptions servo{};
   CommandLimits limits{};
   LossOptions loss{};
+  TimingOptions timing{};
 
   /// Throws std::invalid_argument that names what is out of range (`key: what is wrong; remedy`):
   /// sizes and options, a mount or goal that is no rotation, a goal with the target behind the
