@@ -108,7 +108,7 @@ Answer GroundDesk::use(double width_m) {
   if (!pose) return refused("from that place no goal follows; draw another rectangle");
   task.goal =
       levelled(pose->camera_from_target, candidate_->view->row.attitude, task.body_from_camera);
-  const Answer answer = steer(
+  Answer answer = steer(
       task, std::move(candidate_->tracker),
       fmt::format("new template {:.0f}x{:.0f} px, {:.3g} m wide", box.width, box.height, width_m));
   candidate_.reset();

@@ -47,7 +47,7 @@ class Plot {
     const y = v => bottom - (v - range.low) / (range.high - range.low) * (bottom - top);
     this.grid(x, y, range, end, { left, right, bottom, font });
     this.lines(x, y);
-    this.key(left, font);
+    this.key(2, font);
   }
   grid(x, y, range, end, at) {
     const to = this.to;
