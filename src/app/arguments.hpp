@@ -62,6 +62,7 @@ struct SimulateArguments {
   std::optional<std::int64_t> seed;
   std::optional<SeedRange> seeds;
   std::string sink;
+  std::filesystem::path record;  // folder for the frames as a sequence with truth; empty: none
   RunArguments run;
 };
 

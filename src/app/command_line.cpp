@@ -108,6 +108,9 @@ void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
       ->excludes(seed);
   verb->add_option("--sink", a->sink,
                    "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
+  verb->add_option("--record", a->record,
+                   "Folder for the camera's frames as a sequence with truth, for `evaluate` "
+                   "(default: they are not kept)");
   add_run_options(*verb, a->run);
 }
 

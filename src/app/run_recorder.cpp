@@ -17,14 +17,6 @@ namespace {
 constexpr int kEvenPictures = 6;
 constexpr int kWorstPictures = 3;
 
-/// The value below which a share of the values lies.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  const auto place = std::size_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(place), values.end());
-  return values[place];
-}
-
 const std::vector<ReportFile>& file_words() {
   static const std::vector<ReportFile> words = {
       {"run.csv", "one row a frame: what was seen, decided and sent"},
@@ -42,6 +34,13 @@ const std::vector<ReportFile>& file_words() {
 }
 
 }  // namespace
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nan("");
+  const auto place = std::size_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(place), values.end());
+  return values[place];
+}
 
 RunRecorder::RunRecorder(const RecorderOptions& options)
     : options_(options),

@@ -38,6 +38,9 @@ struct StageTimes {
   double record_ms = 0;  // log, overlay, video
 };
 
+/// The value below which this share (0 to 1) of the values lies; NaN when there is none.
+double quantile(std::vector<double> values, double share);
+
 /// The run folder while it grows: run.csv and timing.csv row by row, the video frame by frame, so
 /// that an interrupted run keeps all it has done; summary and report at the end.
 class RunRecorder {

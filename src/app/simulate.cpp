@@ -10,6 +10,7 @@
 
 #include "autopilot_file.hpp"
 #include "chain.hpp"
+#include "flight_film.hpp"
 #include "interrupt.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
@@ -65,7 +66,8 @@ std::string tum_line(double stamp_s, const Transform<frame::World, frame::Body>&
                      number(std::cos(angle / 2)));
 }
 
-Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink& sink) {
+Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink& sink,
+                  const Task& task) {
   Summary summary;
   summary.begin_section("flight");
   summary.add("result", name(m.end));
@@ -76,6 +78,7 @@ Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink&
   summary.add("longest time unseen", m.longest_unseen_s, "s");
   summary.begin_section("chain");
   add_chain(summary, end, sink);
+  add_timing(summary, end, task);
   return summary;
 }
 
@@ -92,6 +95,12 @@ Prepared prepare(Task task, const Scene& scene) {
   task.target_height_m = reference.height_m;
   task.goal = task.goal * reference.target_from_template;
   return {task, Tracker(reference.image, reference.box, task.track)};
+}
+
+/// What a recorded flight is called: several of one task lie side by side.
+std::string film_name(const SimulateArguments& a) {
+  const std::string stem = a.task.stem().string();
+  return a.seed ? fmt::format("{}_seed_{}", stem, *a.seed) : stem;
 }
 
 }  // namespace
@@ -120,12 +129,16 @@ SimulatedFlight fly(const SimulateArguments& a) {
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
+  std::optional<FlightFilm> film;
+  if (!a.record.empty()) film.emplace(a.record, film_name(a), scene, simulation.world);
+
   std::vector<FlightSample> flight;
   double path_m = 0;
   Eigen::Vector3d before_m = world.motion().world_from_body.translation;
   const auto watch = [&](const Frame& frame, const Step& step,
                          LogRow& row) -> std::optional<std::string> {
     const auto goal = goal_in_world(task, world);
+    if (film) film->record(frame, world);
     flight.push_back(sample(world, frame, step.track.found(), goal));
     row.extra = truth(world, flight.back(), goal);
     path_m += (world.motion().world_from_body.translation - before_m).norm();
@@ -136,6 +149,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
     return name(*end);
   };
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
+  chain.velocity = [&world](double) { return world.measured_velocity_m_s(); };
+  chain.age_s = [late = simulation.world.imaging.latency_s](double) { return late; };
   std::optional<OutsideView> outside_view;
   if (a.run.video || a.run.display) {
     chain.beside = [&](const Frame& frame, cv::Size size) {
@@ -147,7 +162,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   }
   const ChainEnd end = run_chain(chain, *world.next(), watch);
   const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
-  RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
+  RunResult result{recorder.folder(), summarise(metrics, end, sink, prepared.task), 0};
   if (outside.report) outside.report(result.summary);
   recorder.add_times(result.summary);
   finish_run(recorder, prepared.tracker.model(), prepared.task, end, result.summary,
