@@ -84,6 +84,7 @@ struct SimulateArguments {
   std::string sink;
   std::optional<RealTimeArguments> real_time;
   GroundArguments ground;
+  std::filesystem::path record;  // folder for the frames as a sequence with truth; empty: none
   RunArguments run;
 };
 

@@ -1,6 +1,8 @@
 #include "chain.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <fmt/format.h>
@@ -63,11 +65,14 @@ class Fold {
     const double start_s = monotonic_s();
     if (!frame_.attitude && chain_.attitude) frame_.attitude = chain_.attitude(frame_.stamp_s);
     if (chain_.ground) take_course();
-    Step now = step(chain_.tracker, frame_, state_, task_);
+    std::optional<Eigen::Vector3d> velocity_m_s;
+    if (chain_.velocity) velocity_m_s = chain_.velocity(frame_.stamp_s);
+    Step now = step(chain_.tracker, frame_, state_, task_, velocity_m_s);
     if (chain_.ground && chain_.ground->desk().mode() != FlightMode::Servo) hold_still(now);
     chain_.sink.send(now.decision.command, command_stamp_s(now.decision.command));
     sent_s_ = monotonic_s();
     const double chain_ms = (sent_s_ - start_s) * 1e3;
+    take_time(now);
     if (chain_.ground && has_image(frame_)) {
       chain_.ground->show(ground_view(frame_, now, chain_.tracker.model(), task_, chain_ms));
     }
@@ -146,6 +151,14 @@ class Fold {
     return both;
   }
 
+  /// The latency of this frame's command; what the next frames know of it.
+  void take_time(Step& now) {
+    if (!chain_.age_s || !has_image(frame_)) return;
+    end_.latencies_s.push_back(chain_.age_s(frame_.stamp_s));
+    LoopTiming& timing = now.next.decision.timing;
+    timing = with_latency(timing, end_.latencies_s.back());
+  }
+
   void count(const Step& now) {
     ++end_.frames;
     if (!has_image(frame_)) {
@@ -158,6 +171,10 @@ class Fold {
       end_.latency_ms.push_back(1e3 * (sent_s_ - *chain_.stamp_origin_s - frame_.stamp_s));
     end_.found += now.track.found() ? 1 : 0;
     end_.servoed += now.decision.servo ? 1 : 0;
+    end_.predicted += now.decision.predicted_s > 0 ? 1 : 0;
+    if (const auto gain = now.decision.gain_per_s) {
+      end_.least_gain_per_s = std::min(*gain, end_.least_gain_per_s.value_or(*gain));
+    }
   }
 
   const Chain& chain_;
@@ -214,6 +231,21 @@ void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink) {
   }
   summary.add("commands not sent", std::int64_t(sink.failures()));
   summary.add("ended by", end.reason);
+}
+
+void add_timing(Summary& summary, const ChainEnd& end, const Task& task) {
+  const LoopTiming& timing = end.last.next.decision.timing;
+  summary.begin_section("timing");
+  if (timing.period_s) summary.add("period", *timing.period_s * 1e3, "ms");
+  summary.add("latency from capture to command, median", quantile(end.latencies_s, 0.5) * 1e3,
+              "ms");
+  summary.add("latency, 95 %", quantile(end.latencies_s, 0.95) * 1e3, "ms");
+  summary.add("latency, maximum", quantile(end.latencies_s, 1.0) * 1e3, "ms");
+  const double share = end.frames > 0 ? 100.0 / double(end.frames) : 0;
+  summary.add("features predicted over it", double(end.predicted) * share, "%");
+  const auto largest = largest_gain_per_s(timing, task.timing);
+  summary.add("largest gain for this timing", largest.value_or(std::nan("")), "1/s");
+  summary.add("least gain used", end.least_gain_per_s.value_or(task.servo.gain_per_s), "1/s");
 }
 
 }  // namespace kestrel::app

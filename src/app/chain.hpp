@@ -24,12 +24,17 @@ struct Chain {
   Pace pace = Pace::AsFastAsPossible;
   /// The helicopter's attitude at a stamp, for frames that come without; null: nobody knows.
   std::function<std::optional<Attitude>(double stamp_s)> attitude{};
+  /// The helicopter's velocity at a stamp, NED, m/s, where it is measured; null: nobody knows.
+  std::function<std::optional<Eigen::Vector3d>(double stamp_s)> velocity{};
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
   /// Of a live source: what monotonic_s() was when the stamps were zero.
   std::optional<double> stamp_origin_s{};
   /// Is shown each frame, and may stop the chain and change its course; null: nobody.
   GroundStation* ground = nullptr;
+  /// How old the frame with this stamp is, s: asked when its command has just been sent. Null:
+  /// nobody knows, as of a recording.
+  std::function<double(double stamp_s)> age_s{};
 };
 
 /// How a run ended.
@@ -40,8 +45,11 @@ struct ChainEnd {
   std::int64_t found = 0;
   std::int64_t servoed = 0;  // frames in which the law had an answer
   std::vector<std::string> skipped;
-  std::vector<double> latency_ms;  // of a live source: from the capture of a frame to its command
-  std::int64_t blind = 0;          // frames without an image: the source was silent
+  std::vector<double> latency_ms;   // of a live source: from the capture of a frame to its command
+  std::int64_t blind = 0;           // frames without an image: the source was silent
+  std::vector<double> latencies_s;  // from the capture of each frame to its command, if known
+  std::int64_t predicted = 0;       // frames whose features were predicted over it
+  std::optional<double> least_gain_per_s;  // where the timing allowed less than the task's
   Step last;
 };
 
@@ -58,5 +66,8 @@ std::array<Pixel, 4> goal_corners(const Template& model, const Task& task);
 
 /// How a run of the chain ended, as lines of a summary.
 void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink);
+
+/// Period and latency of a run of the chain and what the loop did about them.
+void add_timing(Summary& summary, const ChainEnd& end, const Task& task);
 
 }  // namespace kestrel::app

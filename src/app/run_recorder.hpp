@@ -38,7 +38,7 @@ struct StageTimes {
   double record_ms = 0;  // log, overlay, video
 };
 
-/// The value below which a share of the values lies; not a number of none.
+/// The value below which this share (0 to 1) of the values lies; NaN when there is none.
 double quantile(std::vector<double> values, double share);
 
 /// The run folder while it grows: run.csv and timing.csv row by row, the video frame by frame, so

@@ -10,6 +10,7 @@
 #include "chain.hpp"
 #include "ground.hpp"
 #include "interrupt.hpp"
+#include "progress.hpp"
 #include "simulated_task.hpp"
 #include "sinks.hpp"
 #include "verbs.hpp"
@@ -38,7 +39,8 @@ void note_times(const Sink& sink, WireLog* log) {
   for (const WireTime& time : sink.take_times()) log->write(time);
 }
 
-Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& source) {
+Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& source,
+                  const Task& task) {
   Summary summary;
   summary.begin_section("chain");
   add_chain(summary, end, *sink.commands);
@@ -46,6 +48,7 @@ Summary summarise(const ChainEnd& end, const Sink& sink, const FrameSource& sour
     summary.add("final feature error", end.last.decision.servo->error.norm());
   }
   add_source(summary, source);
+  if (!end.latencies_s.empty()) add_timing(summary, end, task);
   if (sink.report) sink.report(summary);
   return summary;
 }
@@ -63,7 +66,8 @@ RunResult servo(const ServoArguments& a) {
   if (!a.sink.empty()) experiment.sink = a.sink;
 
   const auto source = open_source(experiment);
-  const Sink sink = open_sink(experiment.sink, autopilot, stamp_origin_s(*source));
+  const std::optional<double> origin_s = stamp_origin_s(*source);
+  const Sink sink = open_sink(experiment.sink, autopilot, origin_s);
   const Frame first = first_frame(*source, experiment.source);
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
@@ -76,18 +80,23 @@ RunResult servo(const ServoArguments& a) {
     note_times(sink, times.get());
     return std::nullopt;
   };
-  const ChainEnd end = run_chain({*source,
-                                  ground.sink(),
-                                  learned_task.tracker,
-                                  learned_task.task,
-                                  recorder,
-                                  a.ground.port ? Pace::RealTime : a.pace,  // somebody looks on
-                                  sink.attitude,
-                                  {},
-                                  stamp_origin_s(*source),
-                                  ground.station()},
-                                 first, watch);
-  RunResult result{recorder.folder(), summarise(end, sink, *source), end.broken ? 1 : 0};
+  Chain chain{*source,
+              ground.sink(),
+              learned_task.tracker,
+              learned_task.task,
+              recorder,
+              a.ground.port ? Pace::RealTime : a.pace,  // somebody looks on
+              sink.attitude};
+  chain.stamp_origin_s = origin_s;
+  chain.ground = ground.station();
+  if (chain.stamp_origin_s) {
+    chain.age_s = [zero_s = *chain.stamp_origin_s](double stamp_s) {
+      return monotonic_s() - zero_s - stamp_s;
+    };
+  }
+  const ChainEnd end = run_chain(chain, first, watch);
+  RunResult result{recorder.folder(), summarise(end, sink, *source, learned_task.task),
+                   end.broken ? 1 : 0};
   recorder.add_times(result.summary);
   note_times(sink, times.get());
   std::vector<ReportSection> more;

@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "kestrel/io/csv.hpp"
 #include "kestrel/sim/outside_view.hpp"
 
 #include "chain.hpp"
+#include "flight_film.hpp"
 #include "flight_truth.hpp"
 #include "ground.hpp"
 #include "interrupt.hpp"
@@ -22,12 +25,20 @@ FlightMoment moment_of(const World& world, double stamp_s) {
   return {stamp_s, world.motion().world_from_body, world.world_from_target()};
 }
 
-Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink& sink) {
+Summary summarise(const HoverMetrics& m, const ChainEnd& end, const CommandSink& sink,
+                  const Task& task) {
   Summary summary;
   add_flight(summary, m);
   summary.begin_section("chain");
   add_chain(summary, end, sink);
+  add_timing(summary, end, task);
   return summary;
+}
+
+/// What a recorded flight is called: several of one task lie side by side.
+std::string film_name(const SimulateArguments& a) {
+  const std::string stem = a.task.stem().string();
+  return a.seed ? fmt::format("{}_seed_{}", stem, *a.seed) : stem;
 }
 
 }  // namespace
@@ -45,11 +56,15 @@ SimulatedFlight fly(const SimulateArguments& a) {
   RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
   LineFile trajectory(recorder.folder() / "trajectory.tum");
 
+  std::optional<FlightFilm> film;
+  if (!a.record.empty()) film.emplace(a.record, film_name(a), scene, simulation.world);
+
   std::vector<FlightSample> flight;
   double path_m = 0;
   Eigen::Vector3d before_m = world.motion().world_from_body.translation;
   const auto watch = [&](const Frame& frame, const Step& step,
                          LogRow& row) -> std::optional<std::string> {
+    if (film) film->record(frame, world);
     const FlightMoment now = moment_of(world, frame.stamp_s);
     flight.push_back(flight_sample(now, task));
     flight.back().seen = step.track.found();
@@ -66,6 +81,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
   chain.ground = ground.station();
   if (chain.ground) chain.pace = Pace::RealTime;
+  chain.velocity = [&world](double) { return world.measured_velocity_m_s(); };
+  chain.age_s = [late = simulation.world.imaging.latency_s](double) { return late; };
   std::optional<OutsideView> outside_view;
   if (a.run.video || a.run.display) {
     chain.beside = [&](const Frame& frame, cv::Size size) {
@@ -77,7 +94,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   }
   const ChainEnd end = run_chain(chain, *world.next(), watch);
   const HoverMetrics metrics = hover_metrics(flight, simulation.goal);
-  RunResult result{recorder.folder(), summarise(metrics, end, sink), 0};
+  RunResult result{recorder.folder(), summarise(metrics, end, sink, prepared.task), 0};
   if (outside.report) outside.report(result.summary);
   recorder.add_times(result.summary);
   finish_run(recorder, prepared.tracker.model(), prepared.task, end, result.summary,

@@ -73,6 +73,9 @@ void add_simulate_options(CLI::App& verb, const std::shared_ptr<SimulateArgument
   auto* sink =
       verb.add_option("--sink", a->sink,
                       "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
+  verb.add_option("--record", a->record,
+                  "Folder for the camera's frames as a sequence with truth, for `evaluate` "
+                  "(default: they are not kept)");
   add_real_time(verb, a)->excludes(seed_range_option)->excludes(sink);
 }
 

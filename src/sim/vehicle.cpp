@@ -103,6 +103,7 @@ void Vehicle::look() {
   if (std::holds_alternative<HelicopterOptions>(options_)) {
     motion_.world_from_body = pose(plant_);
     motion_.velocity_m_s = plant_.velocity_m_s;
+    seen_.velocity_m_s = plant_.velocity_m_s;
     measured_ = attitude(plant_);
     return;
   }

@@ -73,6 +73,30 @@ TEST(Seeds, AreAskedForPlainly) {
   }
 }
 
+// The paper's timing with a gain that it does not bear: the loop takes a quarter of the limit,
+// which is 0.853/s by the formula for 0.93 s and 0.93 s, predicts, and arrives.
+TEST(Timing, LimitsTheGainAndPredicts) {
+  const TempFolder folder;
+  std::string text = read(mission("seed_timing"));
+  const auto gain = text.find("gain_per_s: 0.2");
+  text.replace(gain, 15, "gain_per_s: 0.9");
+  const auto calib = text.find("../../calib");
+  text.replace(calib, 11, (fs::path(KESTREL_SOURCE_DIR) / "calib").string());
+  write_text(folder.path() / "task.yaml", text + "timing: {predict: measured}\n");
+  const Outcome outcome =
+      Program({"simulate", "task.yaml", "--seed", "7", "--no-video", "--output", "out"},
+              folder.path())
+          .wait(300);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_SAYS(outcome.out, "timing");
+  const auto timing = nlohmann::json::parse(read(folder.path() / "out/summary.json"))["timing"];
+  EXPECT_NEAR(timing["period_ms"].get<double>(), 930, 1e-6);
+  EXPECT_NEAR(timing["latency_maximum_ms"].get<double>(), 930, 1e-6);
+  EXPECT_NEAR(timing["largest_gain_for_this_timing_1_s"].get<double>(), 0.853 / 4, 0.005);
+  EXPECT_NEAR(timing["least_gain_used_1_s"].get<double>(), 0.853 / 4, 0.005);
+  EXPECT_GT(timing["features_predicted_over_it_percent"].get<double>(), 50);
+}
+
 TEST(SimulationFile, SaysWhatDoesNotGoTogether) {
   const TempFolder folder;
   const auto fault = [&](const std::string& lines) {

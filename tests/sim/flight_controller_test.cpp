@@ -126,6 +126,10 @@ TEST(FlightController, FliesToBothSidesAlike) {
   EXPECT_LT(both({}), 0.1);  // of 4 m
 }
 
+Transform<frame::World, frame::Body> body_pose(const RotorcraftState& state) {
+  return {state.world_from_body.toRotationMatrix(), state.position_m};
+}
+
 // The work of the thrust in a climb is what the weight gains and the air takes: T v = W v + D v at
 // the steady speed, so the thrust exceeds the weight by the heave damping and the drag alone.
 TEST(FlightController, ClimbsByTheThrustThatTheAirAsksFor) {
@@ -134,7 +138,7 @@ TEST(FlightController, ClimbsByTheThrustThatTheAirAsksFor) {
   FlightControllerState memory = holding(state, system.body);
   for (int i = 0; i < 1500; ++i) {
     MeasuredMotion m;
-    m.attitude = attitude({state.world_from_body.toRotationMatrix(), state.position_m});
+    m.attitude = attitude(body_pose(state));
     m.rate_rad_s = state.rate_rad_s;
     m.velocity_m_s = state.velocity_m_s;
     const FlightControl now =
@@ -147,7 +151,7 @@ TEST(FlightController, ClimbsByTheThrustThatTheAirAsksFor) {
   const double air_n =
       o.mass_kg * o.damping_per_s.z() * v + 0.5 * o.air_density_kg_m3 * o.drag_area_m2.z() * v * v;
   const double weight_n = o.mass_kg * o.gravity_m_s2;
-  const double roll = attitude({state.world_from_body.toRotationMatrix(), state.position_m}).roll;
+  const double roll = attitude(body_pose(state)).roll;
   EXPECT_NEAR(state.velocity_m_s.z(), -v, 0.01);
   EXPECT_NEAR(state.thrust_n * std::cos(roll) - weight_n, air_n, 0.05 * air_n);
 }

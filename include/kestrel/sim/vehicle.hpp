@@ -62,6 +62,9 @@ class Vehicle {
   /// The attitude that the flight computer reports: with its errors, if it has any.
   Attitude measured_attitude() const { return measured_; }
 
+  /// The velocity that it reports (NED), with its errors.
+  Eigen::Vector3d measured_velocity_m_s() const { return seen_.velocity_m_s; }
+
  private:
   void advance_plant(const VelocityCommand& command, double duration_s);
   void advance_rotorcraft(const VelocityCommand& command, double duration_s);

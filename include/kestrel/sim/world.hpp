@@ -54,8 +54,8 @@ class World final : public FrameSource, public CommandSink {
 
   /// Flies on for one period with the commands sent (not before the first frame) and looks; for
   /// more than one after a frame that was dropped. Frame k is stamped k / rate_hz and carries the
-  /// attitude that the flight computer reports. Empty after the last frame, and the helicopter
-  /// stays where that showed it.
+  /// attitude that the flight computer reports. Empty after the last frame, and the
+  /// helicopter stays where that showed it.
   std::optional<Frame> next() override;
   const std::vector<std::string>& skipped() const override { return skipped_; }
   std::optional<std::int64_t> frame_count() const override { return options_.frames; }
@@ -67,6 +67,8 @@ class World final : public FrameSource, public CommandSink {
 
   /// The truth at the instant of the last frame (before the first: the start).
   const TrueMotion& motion() const { return vehicle_.motion(); }
+  /// The velocity (NED) that the flight computer reports at that instant.
+  Eigen::Vector3d measured_velocity_m_s() const { return vehicle_.measured_velocity_m_s(); }
   Transform<frame::World, frame::Camera> world_from_camera() const;
   TargetPose camera_from_target() const;
   /// The target's place at that instant.
