@@ -95,8 +95,12 @@ std::vector<BoardPoint> find_charuco(const cv::Mat& gray, const Board& board) {
       board.columns, board.rows, float(board.spacing_m), float(board.marker_m), dictionary);
   std::vector<Corners> markers;
   std::vector<int> ids;
-  cv::aruco::detectMarkers(gray, dictionary, markers, ids);
+  std::vector<Corners> rejected;
+  cv::aruco::detectMarkers(gray, dictionary, markers, ids, cv::aruco::DetectorParameters::create(),
+                           rejected);
   if (ids.empty()) return {};
+  // A marker that was passed over is taken where the board expects it.
+  cv::aruco::refineDetectedMarkers(gray, charuco, markers, ids, rejected);
   Corners corners;
   std::vector<int> corner_ids;
   cv::aruco::interpolateCornersCharuco(markers, ids, gray, charuco, corners, corner_ids);

@@ -99,9 +99,9 @@ AVFormatContext* NetworkCamera::opened(double timeout_s) {
   const int error = avformat_open_input(&raw, url.c_str(), nullptr, &options.options);
   if (error >= 0) return raw;
   const bool timed_out = patience_.is_over();  // raw is freed by FFmpeg
-  fail(
-      fmt::format("no video {}; check the address, and that the camera sends",
-                  timed_out ? fmt::format("within {} s", timeout_s) : "(" + words_of(error) + ")"));
+  fail(fmt::format(
+      "no video {}; check the address, and that the camera sends",
+      timed_out ? fmt::format("within {:.3g} s", timeout_s) : "(" + words_of(error) + ")"));
 }
 
 void NetworkCamera::open(double timeout_s) {
@@ -110,7 +110,7 @@ void NetworkCamera::open(double timeout_s) {
   avformat_find_stream_info(input_.get(), nullptr);  // when it fails the decoder will say so
   stream_ = libav::video_stream(*input_);
   if (stream_ == nullptr && patience_.is_over()) {
-    fail(fmt::format("no video within {} s; check the address, and that the camera sends",
+    fail(fmt::format("no video within {:.3g} s; check the address, and that the camera sends",
                      timeout_s));
   }
   if (stream_ == nullptr) fail("what comes is no video; check the address");

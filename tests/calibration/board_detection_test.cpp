@@ -15,9 +15,11 @@ namespace {
 
 const Camera kCamera({500, 500, 239.5, 179.5, 480, 360});
 
-/// A view with some tilt and roll, the board about 300 px wide.
+/// A view with some tilt and roll, the board about 300 px wide; of a ChArUco board with its
+/// markers.
 TargetPose pose_of(const Board& board, double tilt = 0.3) {
-  const Eigen::Vector3d last = board_points(board).back();
+  Eigen::Vector3d last = board_points(board).back();
+  if (board.pattern == Pattern::Charuco) last.array() += 2 * board.spacing_m;
   const double depth_m = std::max(last.x() / 300, last.y() / 240) * 500;
   return test::board_pose_at(board, {0.01, -0.02}, depth_m, {tilt, -0.2, 0.15});
 }

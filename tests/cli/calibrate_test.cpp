@@ -26,8 +26,11 @@ class Calibrate : public ::testing::Test {
   void draw(int count) const {
     Random random("calibrate");
     const Board board = parse_board(kBoard);
-    const auto poses = usual_poses(board, straight(), count, random);
+    // The poses of a board with one more row and column around: its outer squares, which are needed
+    // to find the corners, are whole in the picture too.
+    auto poses = usual_poses(parse_board("chessboard:9x7:0.03"), straight(), count, random);
     for (std::size_t i = 0; i < poses.size(); ++i) {
+      poses[i].translation += poses[i].rotation * Eigen::Vector3d(0.03, 0.03, 0);
       const std::string name = (i < 10 ? "b0" : "b") + std::to_string(i) + ".png";
       cv::imwrite((folder_ / name).string(), board_picture(board, straight(), poses[i]));
     }
