@@ -43,7 +43,10 @@ inline BoardView view_of(const Board& board, const Camera& camera, const TargetP
 inline bool is_inside(const BoardView& view, const CameraParameters& p) {
   for (const BoardPoint& point : view.points) {
     const Pixel& at = point.in_image;
-    if (!(at.u > 0 && at.v > 0 && at.u < p.width - 1 && at.v < p.height - 1)) return false;
+    constexpr double kNoise_px = 2;  // the points stay inside with noise too
+    const bool inside = at.u > kNoise_px && at.v > kNoise_px && at.u < p.width - 1 - kNoise_px &&
+                        at.v < p.height - 1 - kNoise_px;
+    if (!inside) return false;
   }
   return true;
 }

@@ -75,10 +75,9 @@ cv::Mat visp_view(const TexturedPlane& plane, const Camera& camera, const Target
   vpImageSimulator simulator(vpImageSimulator::GRAY_SCALED);
   simulator.init(picture, corners);
   simulator.setInterpolationType(vpImageSimulator::BILINEAR_INTERPOLATION);
-  simulator.setCleanPreviousImage(true);
   simulator.setCameraPosition(cMo);
   const CameraParameters& p = camera.parameters();
-  vpImage<unsigned char> seen(static_cast<unsigned>(p.height), static_cast<unsigned>(p.width));
+  vpImage<unsigned char> seen(static_cast<unsigned>(p.height), static_cast<unsigned>(p.width), 255);
   simulator.getImage(seen, vpCameraParameters(p.px, p.py, p.u0, p.v0));
   return cv::Mat(p.height, p.width, CV_8U, seen.bitmap).clone();
 }
