@@ -146,6 +146,7 @@ std::vector<BoardPoint> find_board(const cv::Mat& gray, const Board& board) {
 double edge_width_px(const cv::Mat& gray, const std::vector<BoardPoint>& points) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<Pixel> seen;
+  seen.reserve(points.size());
   for (const BoardPoint& point : points) seen.push_back(point.in_image);
   const PixelBox box = clipped(bounding_box(seen), gray.cols, gray.rows);
   if (box.width < 3 || box.height < 3) return kNone;

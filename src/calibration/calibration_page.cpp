@@ -32,7 +32,7 @@ std::string coverage_figure(const CalibrationResult& result) {
     map.y.push_back(edge(row, c.rows, result.job.size.height));
     map.cells.emplace_back();
     for (int i = 0; i < c.columns; ++i) {
-      const int count = c.counts[std::size_t(row * c.columns + i)];
+      const int count = c.counts[std::size_t(row) * std::size_t(c.columns) + std::size_t(i)];
       map.cells.back().push_back({count > 0 ? double(count) : kGap, ""});
     }
   }

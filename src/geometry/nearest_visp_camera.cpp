@@ -24,8 +24,9 @@ std::vector<Sight> sights(const Camera& camera) {
   const CameraParameters& p = camera.parameters();
   std::vector<Sight> all;
   for (int i = 0; i < kColumns * kRows; ++i) {
+    const int row = i / kColumns;
     const Pixel pixel{(p.width - 1.0) * (i % kColumns) / (kColumns - 1),
-                      (p.height - 1.0) * (i / kColumns) / (kRows - 1)};
+                      (p.height - 1.0) * row / (kRows - 1)};
     const ImagePoint point = camera.to_image_point(pixel);
     if (std::isfinite(point.x) && std::isfinite(point.y))
       all.push_back({pixel, {point.x, point.y}});

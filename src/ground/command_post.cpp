@@ -4,7 +4,7 @@ namespace kestrel {
 
 std::string CommandPost::join(double now_s) {
   if (clients_.size() >= kMaxClients) forget_one();
-  const std::string client = run_ + '-' + std::to_string(++joined_);
+  std::string client = run_ + '-' + std::to_string(++joined_);
   clients_[client].heard_s = now_s;
   return client;
 }

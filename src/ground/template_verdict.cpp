@@ -15,10 +15,10 @@ double spread_of(const BlockLevel& level) {
   constexpr double kHalfBlock_px = 4;
   std::array<bool, std::size_t(kParts) * kParts> has{};
   const auto part = [](double at, int size) {
-    return std::clamp(int(kParts * (at + kHalfBlock_px) / size), 0, kParts - 1);
+    return std::size_t(std::clamp(int(kParts * (at + kHalfBlock_px) / size), 0, kParts - 1));
   };
   for (const TemplateBlock& block : level.blocks) {
-    has[std::size_t(part(block.v, level.height) * kParts + part(block.u, level.width))] = true;
+    has[part(block.v, level.height) * std::size_t(kParts) + part(block.u, level.width)] = true;
   }
   return double(std::count(has.begin(), has.end(), true)) / double(has.size());
 }

@@ -107,6 +107,7 @@ class Dc1394Camera : public CameraDevice {
   void choose(const CaptureSettings& settings) {
     const std::vector<iidc::Mode> modes = iidc::modes_of(*camera_);
     std::vector<CameraMode> plain;
+    plain.reserve(modes.size());
     for (const iidc::Mode& mode : modes) plain.push_back(mode.mode);
     ChosenMode chosen;
     try {

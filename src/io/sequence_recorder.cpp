@@ -84,8 +84,10 @@ void SequenceRecorder::write_image(std::int64_t index, const cv::Mat& gray) cons
 }
 
 void SequenceRecorder::describe(const cv::Size& size) const {
-  const PixelBox middle{double(size.width / 4), double(size.height / 4),
-                        double(std::max(size.width / 2, 1)), double(std::max(size.height / 2, 1))};
+  const cv::Size half(std::max(size.width / 2, 1), std::max(size.height / 2, 1));
+  const cv::Point corner(size.width / 4, size.height / 4);
+  const PixelBox middle{double(corner.x), double(corner.y), double(half.width),
+                        double(half.height)};
   const PixelBox box = words_.template_px.value_or(middle);
   const char* const note = words_.template_px ? "" : "  # the middle: put your own rectangle here";
   write_text(result_, fmt::format("images: \"%06d.png\"\n"

@@ -73,6 +73,7 @@ std::string known_schemes() {
 /// "; did you mean camera:?", or nothing.
 std::string nearest_scheme(const std::string& text) {
   std::vector<std::string> starts;
+  starts.reserve(kSchemes.size());
   for (const Scheme& scheme : kSchemes) starts.emplace_back(scheme.start);
   const auto colon = text.find(':');
   const std::string word = colon == std::string::npos ? text : text.substr(0, colon + 1);

@@ -39,8 +39,9 @@ double visible_share(const Scene& scene, const Camera& camera, const CameraAt& a
   const std::size_t first_after = std::size_t(&target - scene.planes.data()) + 1;
   int seen = 0;
   for (int k = 0; k < kAcross * kDown; ++k) {
+    const int row = k / kAcross;
     const double x = ((k % kAcross + 0.5) / kAcross - 0.5) * target.width_m;
-    const double y = ((k / kAcross + 0.5) / kDown - 0.5) * target.height_m;
+    const double y = ((row + 0.5) / kDown - 0.5) * target.height_m;
     const Eigen::Vector3d in_world = world_from_target * Eigen::Vector3d(x, y, 0);
     bool is_open = is_in_image(camera, camera_from_world * in_world);
     for (std::size_t i = first_after; is_open && i < scene.planes.size(); ++i) {
