@@ -28,8 +28,6 @@ struct Chain {
   std::function<std::optional<Eigen::Vector3d>(double stamp_s)> velocity{};
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
-  /// Of a live source: what monotonic_s() was when the stamps were zero.
-  std::optional<double> stamp_origin_s{};
   /// Is shown each frame, and may stop the chain and change its course; null: nobody.
   GroundStation* ground = nullptr;
   /// How old the frame with this stamp is, s: asked when its command has just been sent. Null:
@@ -45,7 +43,6 @@ struct ChainEnd {
   std::int64_t found = 0;
   std::int64_t servoed = 0;  // frames in which the law had an answer
   std::vector<std::string> skipped;
-  std::vector<double> latency_ms;   // of a live source: from the capture of a frame to its command
   std::int64_t blind = 0;           // frames without an image: the source was silent
   std::vector<double> latencies_s;  // from the capture of each frame to its command, if known
   std::int64_t predicted = 0;       // frames whose features were predicted over it

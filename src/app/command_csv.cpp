@@ -32,4 +32,13 @@ Summary receiver_summary(const ReceiverCounts& counts) {
   return summary;
 }
 
+void add_counts(Summary& summary, const AutopilotCounts& counts) {
+  summary.add("setpoints", std::int64_t(counts.setpoints));
+  summary.add("obeyed", std::int64_t(counts.obeyed));
+  summary.add("ignored", std::int64_t(counts.ignored));
+  summary.add("refused", std::int64_t(counts.refused));
+  summary.add("not finite", std::int64_t(counts.not_finite));
+  summary.add("malformed", std::int64_t(counts.malformed));
+}
+
 }  // namespace kestrel::app

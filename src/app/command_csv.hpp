@@ -3,6 +3,7 @@
 #include <string>
 
 #include "kestrel/io/summary.hpp"
+#include "kestrel/link/autopilot_model.hpp"
 #include "kestrel/link/receiver_state.hpp"
 
 /// What a receiver got, as text.
@@ -16,5 +17,8 @@ std::string command_line(const ReceivedCommand& command);
 
 /// The counts of a receiver, as lines of a summary.
 Summary receiver_summary(const ReceiverCounts& counts);
+
+/// What an autopilot that was stood in for made of what it got.
+void add_counts(Summary& summary, const AutopilotCounts& counts);
 
 }  // namespace kestrel::app

@@ -62,7 +62,9 @@ FlightFilm::FlightFilm(std::filesystem::path folder, std::string name, const Sce
       name_(std::move(name)),
       scene_(scene),
       camera_(options.camera),
-      rate_hz_(options.rate_hz) {}
+      rate_hz_(options.rate_hz) {
+  require_new_sequence(folder_, name_);
+}
 
 void FlightFilm::begin(const TargetPose& camera_from_target) {
   const TexturedPlane& target = scene_.target_plane();

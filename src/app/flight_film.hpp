@@ -13,7 +13,8 @@ namespace kestrel::app {
 /// What the camera of a simulated flight saw, kept as a sequence with truth.
 class FlightFilm {
  public:
-  /// Nothing is written before the first frame. The scene outlives the film.
+  /// Nothing is written before the first frame. The scene outlives the film. Throws as
+  /// require_new_sequence.
   FlightFilm(std::filesystem::path folder, std::string name, const Scene& scene,
              const WorldOptions& options);
 

@@ -6,6 +6,8 @@
 
 #include "kestrel/geometry/rotation.hpp"
 
+#include "command_csv.hpp"
+
 namespace kestrel::app {
 namespace {
 
@@ -133,14 +135,8 @@ std::optional<TrueMotion> FlyingVehicle::motion_at(double time_s) const {
 }
 
 void FlyingVehicle::report(Summary& summary) const {
-  const AutopilotCounts& counts = model_.counts();
   summary.begin_section("autopilot");
-  summary.add("setpoints", std::int64_t(counts.setpoints));
-  summary.add("obeyed", std::int64_t(counts.obeyed));
-  summary.add("ignored", std::int64_t(counts.ignored));
-  summary.add("refused", std::int64_t(counts.refused));
-  summary.add("not finite", std::int64_t(counts.not_finite));
-  summary.add("malformed", std::int64_t(counts.malformed));
+  add_counts(summary, model_.counts());
   summary.add("armed", model_.armed());
   summary.add("stands on the ground", stands_);
   if (hardest_touch_m_s_ > 0) summary.add("hardest touchdown", hardest_touch_m_s_, "m/s");

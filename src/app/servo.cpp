@@ -72,27 +72,21 @@ RunResult servo(const ServoArguments& a) {
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
   LearnedTask learned_task = learned(experiment, simulation, first);
+  Ground ground(a.ground, learned_task.task, *sink.commands);  // a taken port leaves no folder
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
-  Ground ground(a.ground, learned_task.task, *sink.commands);
   std::unique_ptr<WireLog> times;
   if (sink.take_times) times = std::make_unique<WireLog>(recorder.folder() / "wire.csv");
   const auto watch = [&](const Frame&, const Step&, LogRow&) -> std::optional<std::string> {
     note_times(sink, times.get());
     return std::nullopt;
   };
-  Chain chain{*source,
-              ground.sink(),
-              learned_task.tracker,
-              learned_task.task,
-              recorder,
-              a.ground.port ? Pace::RealTime : a.pace,  // somebody looks on
+  const bool is_watched_recording = a.ground.port && !origin_s;  // what is live has its own pace
+  Chain chain{*source,           ground.sink(), learned_task.tracker,
+              learned_task.task, recorder,      is_watched_recording ? Pace::RealTime : a.pace,
               sink.attitude};
-  chain.stamp_origin_s = origin_s;
   chain.ground = ground.station();
-  if (chain.stamp_origin_s) {
-    chain.age_s = [zero_s = *chain.stamp_origin_s](double stamp_s) {
-      return monotonic_s() - zero_s - stamp_s;
-    };
+  if (origin_s) {
+    chain.age_s = [zero_s = *origin_s](double stamp_s) { return monotonic_s() - zero_s - stamp_s; };
   }
   const ChainEnd end = run_chain(chain, first, watch);
   RunResult result{recorder.folder(), summarise(end, sink, *source, learned_task.task),

@@ -53,11 +53,10 @@ SimulatedFlight fly(const SimulateArguments& a) {
   const Sink outside = open_sink(a.sink, loaded.autopilot, std::nullopt);
   Ground ground(a.ground, prepared.task, *outside.commands);
   TeeSink sink(world, ground.sink());
-  RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
-  LineFile trajectory(recorder.folder() / "trajectory.tum");
-
   std::optional<FlightFilm> film;
   if (!a.record.empty()) film.emplace(a.record, film_name(a), scene, simulation.world);
+  RunRecorder recorder(recorder_options(a.run, a.task, simulation.world.rate_hz, truth_columns()));
+  LineFile trajectory(recorder.folder() / "trajectory.tum");
 
   std::vector<FlightSample> flight;
   double path_m = 0;

@@ -6,6 +6,8 @@
 
 #include "kestrel/link/autopilot_link.hpp"
 
+#include "command_csv.hpp"
+
 namespace kestrel::app {
 namespace {
 
@@ -73,14 +75,9 @@ std::vector<std::string> StandIn::take_events() {
 }
 
 void StandIn::report(Summary& summary) const {
-  const AutopilotCounts& counts = model_.counts();
   const Eigen::Vector3d& p = vehicle_.truth().position_ned_m;
   summary.begin_section("autopilot");
-  summary.add("setpoints", std::int64_t(counts.setpoints));
-  summary.add("obeyed", std::int64_t(counts.obeyed));
-  summary.add("ignored", std::int64_t(counts.ignored));
-  summary.add("refused", std::int64_t(counts.refused));
-  summary.add("not finite", std::int64_t(counts.not_finite));
+  add_counts(summary, model_.counts());
   summary.add("alive", model_.alive());
   summary.add("armed", model_.armed());
   summary.add("speed", vehicle_.truth().velocity_ned_m_s.norm(), "m/s");

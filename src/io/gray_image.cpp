@@ -2,10 +2,13 @@
 
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "kestrel/io/csv.hpp"
 #include "kestrel/io/image_codec.hpp"
 
 namespace kestrel {
@@ -61,6 +64,17 @@ cv::Mat load_gray(const std::filesystem::path& file) {
     throw FileError(file, 0, "", "is damaged, cut short or no image of 8 or 16 bits");
   }
   return gray;
+}
+
+void save_png(const std::filesystem::path& file, const cv::Mat& gray) {
+  const std::vector<unsigned char> bytes = encode_png(gray);
+  try {
+    write_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const std::runtime_error&) {
+    std::error_code ignored;  // what is no file of ours, a device say, stays
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+    throw;
+  }
 }
 
 }  // namespace kestrel

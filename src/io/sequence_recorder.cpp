@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "kestrel/io/image_codec.hpp"
+#include "kestrel/io/gray_image.hpp"
 
 namespace kestrel {
 namespace {
@@ -19,16 +19,6 @@ void make_folder(const fs::path& folder) {
   }
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
-}
-
-/// A text as YAML takes it, whatever is in it.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return out + '"';
 }
 
 }  // namespace
@@ -56,7 +46,7 @@ void SequenceRecorder::write(std::int64_t index, double stamp_s, const cv::Mat& 
     result_ = video_->path();
   } else {
     if (pictures_ == 0) describe(gray.size());
-    write_image(index, gray);
+    save_png(folder_ / fmt::format("{:06d}.png", index), gray);
   }
   stamps_->write(std::to_string(index) + "," + number(stamp_s));
   ++pictures_;
@@ -68,19 +58,6 @@ void SequenceRecorder::write(std::int64_t index, double stamp_s, const cv::Mat& 
 
 void SequenceRecorder::close() {
   if (video_) video_->close();
-}
-
-/// Half a picture is worse than none: it goes when the disk is full.
-void SequenceRecorder::write_image(std::int64_t index, const cv::Mat& gray) const {
-  const fs::path file = folder_ / fmt::format("{:06d}.png", index);
-  const std::vector<unsigned char> bytes = encode_png(gray);
-  try {
-    write_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  } catch (const std::runtime_error&) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
-    throw;
-  }
 }
 
 void SequenceRecorder::describe(const cv::Size& size) const {
@@ -98,7 +75,7 @@ void SequenceRecorder::describe(const cv::Size& size) const {
                                   "origin: kestrel record\n"
                                   "licence: not said\n",
                                   box.u, box.v, box.width, box.height, note,
-                                  quoted("recorded from " + words_.source)));
+                                  yaml_quoted("recorded from " + words_.source)));
 }
 
 }  // namespace kestrel

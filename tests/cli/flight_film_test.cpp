@@ -115,7 +115,8 @@ TEST_F(Record, KeepsWhatIsThere) {
   fly("gust", "0.1");
   const Outcome again = fly("gust", "0.1");
   EXPECT_EQ(again.exit_code, 1);
-  EXPECT_SAYS(again.out, "is there already");
+  EXPECT_SAYS(again.err, "is there already");
+  EXPECT_FALSE(fs::exists(folder_.path() / "out-2"));  // before anything else was made
 }
 
 }  // namespace

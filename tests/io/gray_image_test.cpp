@@ -102,5 +102,23 @@ TEST(AsGray, CopiesSoThatTheSourceMayBeReused) {
   EXPECT_EQ(gray.at<uchar>(0, 0), 7);
 }
 
+TEST(SavePng, IsReadBackToTheLastBit) {
+  const test::TempFolder folder;
+  cv::Mat picture(7, 5, CV_8UC1);
+  test::Random random("save png");
+  for (int i = 0; i < 35; ++i) picture.data[i] = std::uint8_t(random.integer(0, 255));
+  save_png(folder / "p.png", picture);
+  EXPECT_EQ(cv::norm(load_gray(folder / "p.png"), picture, cv::NORM_INF), 0);
+}
+
+TEST(SavePng, SaysWhenTheDiskIsFullAndTouchesNoDevice) {
+  const test::TempFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "p.png");
+  EXPECT_THAT(test::message_of([&] { save_png(folder / "p.png", cv::Mat(40, 40, CV_8UC1, 7)); }),
+              HasSubstr("No space left"));
+  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "p.png"));
+}
+
 }  // namespace
 }  // namespace kestrel

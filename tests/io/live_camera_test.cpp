@@ -3,23 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/quick_live.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
 
 using test::message_of;
+using test::quick;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-LiveOptions quick(double open_timeout_s, double give_up_s) {
-  LiveOptions options;
-  options.open_timeout_s = open_timeout_s;
-  options.stall_timeout_s = 0.2;
-  options.give_up_s = give_up_s;
-  options.retry_s = 0.05;
-  return options;
-}
 
 TEST(OpenLive, SaysWhatAnAddressMayBe) {
   EXPECT_THAT(message_of([] { open_live("ftp://x"); }),

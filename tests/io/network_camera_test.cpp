@@ -6,6 +6,7 @@
 #include "kestrel/io/live_camera.hpp"
 
 #include "io/mjpeg_server.hpp"
+#include "io/quick_live.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel {
@@ -13,17 +14,9 @@ namespace {
 
 using test::message_of;
 using test::MjpegServer;
+using test::quick;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-LiveOptions quick(double open_timeout_s, double give_up_s) {
-  LiveOptions options;
-  options.open_timeout_s = open_timeout_s;
-  options.stall_timeout_s = 0.2;
-  options.give_up_s = give_up_s;
-  options.retry_s = 0.05;
-  return options;
-}
 
 /// Takes frames until the source fails; what it says then.
 std::string end_of(FrameSource& source) {

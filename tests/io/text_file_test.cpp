@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "kestrel/io/yaml_section.hpp"
+
 #include "support/random.hpp"
 #include "support/temp_folder.hpp"
 
@@ -98,6 +100,16 @@ TEST(NearestWord, FindsSlipsAndBeginningsOnly) {
   EXPECT_EQ(nearest_word("interactions", known), "interaction");
   EXPECT_EQ(nearest_word("colour", known), "");
   EXPECT_EQ(nearest_word("x", {}), "");
+}
+
+TEST(YamlQuoted, IsReadBackAsItWas) {
+  const test::TempFolder folder;
+  for (const std::string text : {"plain", "a 'box': red", "say \"hi\" # no comment", "C:\\x\\n",
+                                 "- [1, 2]", "null", "{a: b}"}) {
+    folder.write("t.yaml", "a: " + yaml_quoted(text) + "\n");
+    EXPECT_EQ(Section::load(folder / "t.yaml").text("a"), text);
+  }
+  EXPECT_EQ(yaml_quoted("two\nlines"), "\"two lines\"");
 }
 
 }  // namespace

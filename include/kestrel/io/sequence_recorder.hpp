@@ -44,7 +44,6 @@ class SequenceRecorder {
   const std::filesystem::path& result() const { return result_; }
 
  private:
-  void write_image(std::int64_t index, const cv::Mat& gray) const;
   void describe(const cv::Size& size) const;
 
   std::filesystem::path folder_;  // empty for a video

@@ -36,10 +36,13 @@ struct RecordedFrame {
   bool is_labelled = true;       // false: too much is hidden for a row in the truth
 };
 
+/// Throws std::runtime_error (path, remedy) when NAME.yaml is in the folder already.
+void require_new_sequence(const std::filesystem::path& folder, const std::string& name);
+
 /// Writes a sequence with truth as `track`, `servo` and `evaluate` read it: NAME.yaml, the frames
 /// NAME/000000.png ..., NAME_truth.csv; beside them NAME_homography.csv (frame, nine numbers row by
 /// row), NAME_pose.csv (frame, stamp_s, translation in m, theta u in rad of camera_from_target)
-/// and, for a pinhole or plumb-bob camera, NAME_camera.yaml. Every row is on the disk before the
+/// and NAME_camera.yaml (ROS's camera_info). Every row is on the disk before the
 /// next frame, so that an interrupted recording is a shorter one.
 class SequenceWriter {
  public:

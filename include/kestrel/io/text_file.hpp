@@ -30,6 +30,9 @@ double parse_number(std::string_view text);
 /// A whole number written the plain way, with the same refusals.
 std::int64_t parse_integer(std::string_view text);
 
+/// A text in quotes as YAML takes it, whatever is in it; control characters become spaces.
+std::string yaml_quoted(const std::string& text);
+
 /// The known word nearest to `word` by edit distance or as a beginning, or empty when none is near.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
