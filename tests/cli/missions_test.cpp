@@ -91,7 +91,7 @@ TEST(Timing, LimitsTheGainAndPredicts) {
   EXPECT_SAYS(outcome.out, "timing");
   const auto timing = nlohmann::json::parse(read(folder.path() / "out/summary.json"))["timing"];
   EXPECT_NEAR(timing["period_ms"].get<double>(), 930, 1e-6);
-  EXPECT_NEAR(timing["latency_maximum_ms"].get<double>(), 930, 1e-6);
+  EXPECT_NEAR(timing["capture_to_command_maximum_ms"].get<double>(), 930, 1e-6);
   EXPECT_NEAR(timing["largest_gain_for_this_timing_1_s"].get<double>(), 0.853 / 4, 0.005);
   EXPECT_NEAR(timing["least_gain_used_1_s"].get<double>(), 0.853 / 4, 0.005);
   EXPECT_GT(timing["features_predicted_over_it_percent"].get<double>(), 50);
