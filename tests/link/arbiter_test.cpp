@@ -118,6 +118,19 @@ TEST(Arbiter, KeepsALockAlsoWithASilentOrGoneOwner) {
   EXPECT_FALSE(offer(arbiter, kEye, 4.1));
 }
 
+TEST(Arbiter, LocksToNobodyWhileItIsTakenOverOrStopped) {
+  Arbiter arbiter(5);
+  arbiter.take_over();
+  EXPECT_FALSE(offer(arbiter, kGround, 1));
+  EXPECT_FALSE(arbiter.lock());
+  arbiter.release();
+  EXPECT_FALSE(offer(arbiter, kEye, 1.1));
+  arbiter.stop();
+  EXPECT_FALSE(arbiter.lock());
+  arbiter.reset();
+  EXPECT_FALSE(offer(arbiter, kGround, 1.2)) << "a lock is left behind";
+}
+
 TEST(Arbiter, KeepsATakeOverAlsoWithoutAnyGround) {
   Arbiter arbiter(5);
   EXPECT_FALSE(offer(arbiter, kEye, 1));
@@ -203,6 +216,22 @@ TEST(Arbiter, HasRoomForAFewSourcesOfEachPeer) {
   }
   EXPECT_FALSE(offer(arbiter, kEye, 1));  // the flood takes nobody's room
   EXPECT_FALSE(offer(arbiter, {{7, 200, 1}, LinkRole::Script, 10}, 6.2));  // the dead make room
+}
+
+// A dead source that control is locked to speaks again once its heart beats again, not before: its
+// place is not given away, so that it cannot come back as somebody new.
+TEST(Arbiter, GivesNobodyThePlaceOfADeadOwnerThatIsLockedTo) {
+  Arbiter arbiter(5);
+  const auto script = [](int i) {
+    return Claimant{{7, std::uint8_t(i + 1), 1}, LinkRole::Script, 10};
+  };
+  EXPECT_FALSE(offer(arbiter, script(0), 1));
+  EXPECT_TRUE(arbiter.lock());
+  for (int i = 1; i < int(Arbiter::kSourcesPerPeer); ++i) offer(arbiter, script(i), 1);
+  offer(arbiter, script(100), 7);  // the dead make room
+  EXPECT_EQ(offer(arbiter, script(0), 7.1), Refused::Dead);
+  arbiter.heartbeat(script(0), 7.2);
+  EXPECT_FALSE(offer(arbiter, script(0), 7.3));
 }
 
 }  // namespace

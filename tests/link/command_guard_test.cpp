@@ -137,6 +137,16 @@ TEST(CommandGuard, BelievesALeapOfTheClockFromTheSecondStampOn) {
   EXPECT_EQ(reason(guard, 1.5, 1.5), Refused::Stale);  // of the time before
 }
 
+TEST(CommandGuard, BelievesNoLeapsThatDoNotAgree) {
+  CommandGuard guard(kOptions);
+  EXPECT_FALSE(reason(guard, 1, 1));
+  EXPECT_EQ(reason(guard, 101, 1.1), Refused::FromTheFuture);
+  EXPECT_EQ(reason(guard, 201, 1.2), Refused::FromTheFuture);  // further still: another one
+  EXPECT_FALSE(reason(guard, 1.3, 1.3));
+  EXPECT_EQ(reason(guard, 201.2, 1.4), Refused::FromTheFuture);  // the old clock spoke in between
+  EXPECT_FALSE(reason(guard, 201.3, 1.5));
+}
+
 TEST(CommandGuard, HearsAClockSetBackAfterASilence) {
   CommandGuard guard(kOptions);
   EXPECT_FALSE(reason(guard, 100, 10));
