@@ -64,6 +64,21 @@ TEST(CommandDesk, FillsTheStreamWhileFreshAndZeroesItAtTheDeadman) {
   }
 }
 
+// The sooner of the two ends counts.
+TEST(CommandDesk, ZeroesAtADeadmanThatIsShorterThanTheTimeToLive) {
+  CommandDeskOptions options = kOptions;
+  options.deadman_s = 0.2;
+  CommandDesk desk(options);
+  say(desk, kEye, 1);
+  desk.due(1);
+  say(desk, kEye, 1.1);
+  EXPECT_GT(desk.due(1.1)->command.forward_m_s, 0);
+  desk.due(1.25);
+  EXPECT_EQ(desk.deadman_count(), 0u);
+  EXPECT_TRUE(is_hover(desk.due(1.301)->command));
+  EXPECT_EQ(desk.deadman_count(), 1u);
+}
+
 // The capture counts, not the arrival: a setpoint that came 0.3 s late is followed for 0.2 s.
 TEST(CommandDesk, CountsFromTheCapture) {
   CommandDesk desk(kOptions);
