@@ -241,6 +241,20 @@ TEST_F(FaultTable, ASourceCountsAsDeadAfterFiveMissedHeartbeats) {
   EXPECT_GE(bench_.refused(kVision, Refused::Dead), 1u);
 }
 
+// Its connection says so: nobody waits for the deadman.
+TEST_F(FaultTable, AnOwnerThatLeavesIsAnsweredByAZeroAtOnce) {
+  bench_.fly(kVision, {0.3, 0, 0, 0}, 1);
+  ASSERT_FALSE(bench_.last_flown().is_zero());
+  const double left_s = bench_.now_s();
+  bench_.disconnect(kVision);
+  bench_.pass(2 * SwitchBench::kStep_s);
+  const auto after = bench_.flown_since(left_s);
+  ASSERT_FALSE(after.empty());
+  EXPECT_TRUE(after.front().is_zero());
+  EXPECT_LE(after.front().time_s - left_s, 2 * SwitchBench::kStep_s);
+  EXPECT_FALSE(bench_.owner());
+}
+
 TEST_F(FaultTable, APeerThatRestartsIsHeardAgainAndOthersAreNotStalled) {
   bench_.fly(kVision, good(), 2);
   bench_.disconnect(kVision);
