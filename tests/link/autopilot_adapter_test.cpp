@@ -135,6 +135,21 @@ TEST_P(AdapterWithBoth, TheHeartbeatStopsWithTheWork) {
   EXPECT_GE(last_s, stuck_s - 1.05);
 }
 
+// A frozen picture behind a living thread is no work.
+TEST_P(AdapterWithBoth, TheHeartbeatStopsWhileAFrozenFrameIsDecidedAgain) {
+  AdapterFlight flight = in_control();
+  const double frozen_s = flight.now_s;
+  flight.sees = false;
+  for (int i = 0; i < 500; ++i) {
+    flight.adapter.decide({1, 0, 0, 0}, frozen_s - 0.03, flight.now_s);
+    flight.step();
+  }
+  const auto beats = flight.adapter.status(0).counts.heartbeats;
+  flight.adapter.decide({1, 0, 0, 0}, frozen_s - 0.03, flight.now_s);
+  flight.fly(3);
+  EXPECT_EQ(flight.adapter.status(0).counts.heartbeats, beats);
+}
+
 TEST_P(AdapterWithBoth, BeatsOnceASecondAsTheCompanionOfTheVehicle) {
   AutopilotModelOptions rules = rules_of(GetParam());
   rules.me = {42, 1};
@@ -185,6 +200,42 @@ TEST_P(AdapterWithBoth, GivesControlBackWithZerosAsItsLastWord) {
   flight.fly(5);
   EXPECT_EQ(flight.sent<mavlink::SetPositionTarget>().size(), before);
   EXPECT_LT(flight.speed(), 0.01);
+}
+
+// Released before the first frame was decided: nothing is asked for any more.
+TEST_P(AdapterWithBoth, HearsNoDecisionAfterTheRelease) {
+  AdapterFlight flight({}, rules_of(GetParam()));
+  flight.sees = false;
+  flight.fly(2);
+  flight.adapter.release(flight.now_s);
+  flight.sees = true;
+  flight.fly(5);
+  EXPECT_TRUE(flight.adapter.released());
+  EXPECT_EQ(flight.adapter.status(0).decided.decided, 0);
+  EXPECT_NE(flight.model.mode(), is_px4() ? kPx4Offboard : kArduPilotGuided);
+  EXPECT_EQ(moving_setpoints(flight, 0), 0);
+}
+
+// It has forgotten how often it was to report.
+TEST_P(AdapterWithBoth, AsksAnAutopilotThatStartsAnewForItsTelemetryAgain) {
+  AdapterFlight flight = in_control();
+  AutopilotModelOptions rules = rules_of(GetParam());
+  rules.boot_s = flight.now_s;
+  flight.model = AutopilotModel(rules);
+  flight.fly(8);
+  EXPECT_GE(flight.adapter.status(0).clock_jumps, 1);
+  const auto before = flight.adapter.status(0).telemetry.attitudes;
+  flight.fly(2);
+  EXPECT_GT(flight.adapter.status(0).telemetry.attitudes - before, 90);  // 50 Hz; by itself 4
+}
+
+TEST_P(AdapterWithBoth, TakesNoDeviceForTheAutopilot) {
+  AdapterFlight flight({}, rules_of(GetParam()));
+  mavlink::Heartbeat beat;
+  beat.autopilot = 8;  // MAV_AUTOPILOT_INVALID
+  flight.adapter.receive(mavlink::encode(beat, {7, 1, 0}).bytes(), flight.now_s);
+  flight.fly(5);
+  EXPECT_EQ(flight.control(), HandshakeState::InControl) << flight.adapter.status(0).words;
 }
 
 TEST_P(AdapterWithBoth, AVehicleThatIsNoLongerHeardGetsZerosAndThenNothing) {

@@ -107,11 +107,13 @@ TEST(AutopilotLink, FliesAnAutopilotBehindASocketAndGivesItBack) {
   ThreadedAutopilot autopilot(Autopilot::ArduPilot);
   AutopilotOptions options;
   options.farewell_s = 0.1;
-  AutopilotLink link(autopilot.address(), options, 0.0);
-  const auto frame = [&] { link.send({1, 0, 0, 0}, link_clock_s()); };
+  constexpr double kOrigin_s = 100;  // where our clock is when the stamps begin
+  AutopilotLink link(autopilot.address(), options, kOrigin_s);
+  const auto stamp_s = [] { return link_clock_s() - kOrigin_s; };
+  const auto frame = [&] { link.send({1, 0, 0, 0}, stamp_s()); };
   EXPECT_TRUE(until([&] { return autopilot.north_m_s() > 0.3; }, frame));
   EXPECT_EQ(link.status().control, HandshakeState::InControl);
-  EXPECT_TRUE(until([&] { return link.attitude_at(link_clock_s() - 0.02).has_value(); }, frame));
+  EXPECT_TRUE(until([&] { return link.attitude_at(stamp_s() - 0.02).has_value(); }, frame));
   EXPECT_TRUE(until([&] { return link.status().clock.has_value(); }, frame));
   const std::vector<SentSetpoint> sent = link.take_sent();
   ASSERT_GT(sent.size(), 3u);
