@@ -67,6 +67,23 @@ TEST(SwitchLoop, PeersOfEveryKindComeAndGo) {
   EXPECT_TRUE(turns_until(loop, [&] { return peers().size() == 2; }));
 }
 
+// However much waits at one socket: the others have their turn after a batch of it.
+TEST(SwitchLoop, TakesABatchOfEachSocketInATurn) {
+  SwitchLoop loop(options_of({{LinkRole::Script, {LinkKind::UdpServer, {"127.0.0.1", 0}}},
+                              {LinkRole::Vision, {LinkKind::UdpServer, {"127.0.0.1", 0}}},
+                              {LinkRole::Flight, {LinkKind::UdpServer, {"127.0.0.1", 0}}}}),
+                  clock_now);
+  UdpSocket noise = UdpSocket::connected_to(loop.address(0));
+  UdpSocket eyes = UdpSocket::connected_to(loop.address(1));
+  for (int i = 0; i < 40; ++i) noise.send(kBeat.bytes());
+  eyes.send(mavlink::encode(mavlink::Heartbeat{}, {1, 192, 0}).bytes());
+  loop.turn();
+  const auto peers = loop.report().core.peers;
+  ASSERT_EQ(peers.size(), 2u);
+  EXPECT_EQ(peers[0].counters.chunks, SwitchLoopOptions{}.batch);
+  EXPECT_EQ(peers[1].counters.chunks, 1u);
+}
+
 TEST(SwitchLoop, TellsItsStatusToWhoAsks) {
   const test::TempFolder folder;
   SwitchLoopOptions options = options_of({{LinkRole::Flight, {LinkKind::UdpServer, {"::1", 0}}}});
