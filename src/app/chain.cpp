@@ -78,9 +78,9 @@ class Fold {
     LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
-    const cv::Mat picture = picture_of(now);
+    const auto draw = [&] { return picture_of(now); };
     const bool is_open =
-        chain_.recorder.record(row, picture, badness(frame_, now), {source_ms_, chain_ms, 0});
+        chain_.recorder.record(row, draw, badness(frame_, now), {source_ms_, chain_ms, 0});
     count(now);
     progress_.step(end_.frames, name(now.decision.state));
     state_ = now.next;

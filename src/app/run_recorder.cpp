@@ -59,14 +59,20 @@ RunRecorder::RunRecorder(const RecorderOptions& options)
   }
 }
 
-bool RunRecorder::record(const LogRow& row, const cv::Mat& picture, double badness,
+bool RunRecorder::record(const LogRow& row, const std::function<cv::Mat()>& draw, double badness,
                          StageTimes times) {
   const double start_s = monotonic_s();
   log_.write(row);
-  if (video_) video_->write(picture);
-  sheet_.offer(picture, fmt::format("frame {}", row.frame), badness);
+  cv::Mat picture;
+  const auto drawn = [&] {
+    if (picture.empty()) picture = draw();
+    return picture;
+  };
+  if (video_) video_->write(drawn());
+  sheet_.offer(drawn, fmt::format("frame {}", row.frame), badness);
   bool goes_on = true;
   if (options_.display) {
+    drawn();
     if (!window_) window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel");
     goes_on = window_->show(picture);
   }

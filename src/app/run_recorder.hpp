@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,9 +50,10 @@ class RunRecorder {
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Records a frame. badness: larger is a worse frame (for the contact sheet). False once the user
-  /// has closed the window.
-  bool record(const LogRow& row, const cv::Mat& picture, double badness, StageTimes times);
+  /// Records a frame, whose picture is drawn only if it is kept or shown. badness: larger is a worse
+  /// frame (for the contact sheet). False once the user has closed the window.
+  bool record(const LogRow& row, const std::function<cv::Mat()>& draw, double badness,
+              StageTimes times);
 
   /// Writes summary.json, report.html and closes the video. The report's video, pictures, files and
   /// configuration are filled in here.

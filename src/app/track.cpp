@@ -77,7 +77,8 @@ class TrackRun {
     row.extra = {error_px(truth_, frame.index, estimate)};
     count(seen);
     const double badness = seen.found() ? row.extra[0] : 1e6;
-    return recorder_.record(row, overlay(frame, model_, seen), badness, {source_ms, chain_ms, 0});
+    const auto draw = [&] { return overlay(frame, model_, seen); };
+    return recorder_.record(row, draw, badness, {source_ms, chain_ms, 0});
   }
 
   Summary summary(const FrameSource& source, const std::string& ended_by) const {

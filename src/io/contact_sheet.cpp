@@ -5,9 +5,10 @@
 
 namespace kestrel {
 
-void ContactSheet::offer(const cv::Mat& picture, const std::string& caption, double badness) {
+void ContactSheet::offer(const std::function<cv::Mat()>& draw, const std::string& caption,
+                         double badness) {
   const std::int64_t place = offered_++;
-  const auto copy = [&] { return Kept{place, badness, report_picture(caption, picture)}; };
+  const auto copy = [&] { return Kept{place, badness, report_picture(caption, draw())}; };
   if (even_ > 0 && place % stride_ == 0) spaced_.push_back(copy());
   if (spaced_.size() > 4 * std::size_t(even_)) {
     // Each doubling of the stride drops every other picture: memory stays bounded, spacing even.

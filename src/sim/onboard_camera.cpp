@@ -46,7 +46,7 @@ Frame OnboardCamera::look(const TrueMotion& vehicle, std::int64_t index, double 
   frame.index = index;
   frame.stamp_s = stamp_s;
   frame.gray = renderer_.expose(shot({vehicle, options_.body_from_camera, imaging.vibration},
-                                     stamp_s, options_.camera, imaging.shutter),
+                                     stamp_s, renderer_, imaging.shutter),
                                 render);
   return frame;
 }

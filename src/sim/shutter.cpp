@@ -9,15 +9,25 @@
 namespace kestrel {
 namespace {
 
-constexpr double kNear_m = 3;
+/// Motion is measured over stretches no longer than this: a fifth of the period of a rotor's second
+/// harmonic, 2 x 24 Hz.
+constexpr double kStretch_s = 0.004;
+constexpr double kMostStretches = 16;
 
-/// Fastest motion in the picture, px/s, but for what turns about the optical axis does far out.
-double fastest_px_s(const CameraInFlight& motion, const Camera& camera) {
-  const VibrationOptions& v = motion.vibration;
-  const double shaking_rad_s =
-      v.amplitude_rad.norm() * 2 * M_PI * v.frequency_hz * (1 + 2 * v.second_share);
-  const double turning_rad_s = motion.vehicle.rate_rad_s.norm() + shaking_rad_s;
-  return camera.parameters().px * (turning_rad_s + motion.vehicle.velocity_m_s.norm() / kNear_m);
+/// Fastest motion in the picture while any row is exposed, px/s.
+double fastest_px_s(const CameraInFlight& motion, double stamp_s, const Renderer& renderer,
+                    const ShutterOptions& options) {
+  const double open_s = options.exposure_s + options.readout_s;
+  if (open_s == 0) return 0;
+  const double count = std::clamp(std::ceil(open_s / kStretch_s), 2.0, kMostStretches);
+  double farthest_px = 0;
+  CameraAt before = camera_at(motion, stamp_s, stamp_s - open_s / 2);
+  for (int i = 1; i <= int(count); ++i) {
+    const CameraAt after = camera_at(motion, stamp_s, stamp_s + open_s * (i / count - 0.5));
+    farthest_px = std::max(farthest_px, renderer.motion_px(before, after));
+    before = after;
+  }
+  return farthest_px * count / open_s;
 }
 
 int steps(double motion_px, const ShutterOptions& options) {
@@ -45,10 +55,10 @@ CameraAt camera_at(const CameraInFlight& motion, double stamp_s, double time_s) 
   return {time_s, body * motion.body_from_camera};
 }
 
-Shot shot(const CameraInFlight& motion, double stamp_s, const Camera& camera,
+Shot shot(const CameraInFlight& motion, double stamp_s, const Renderer& renderer,
           const ShutterOptions& options) {
-  const double speed_px_s = fastest_px_s(motion, camera);
-  const int rows = camera.parameters().height;
+  const double speed_px_s = fastest_px_s(motion, stamp_s, renderer, options);
+  const int rows = renderer.size().height;
   const int views = steps(speed_px_s * options.exposure_s, options);
   const int bands = std::min(rows, steps(speed_px_s * options.readout_s, options));
   Shot all;

@@ -9,43 +9,19 @@
 #include <opencv2/imgproc.hpp>
 
 #include "random.hpp"
+#include "texture/grain.hpp"
 
 namespace kestrel {
 namespace {
 
+using sim_detail::clouds;
+using sim_detail::grained;
 using sim_detail::RandomStream;
 
 void require_size(int width_px, int height_px) {
   if (width_px < 16 || height_px < 16) {
     throw std::invalid_argument("a texture must be at least 16x16 px");
   }
-}
-
-/// Value noise: random lattices from `coarsest_px` down to 2 px cells, each finer one weaker by
-/// `fade`; float, mean 0, amplitude about 1.
-cv::Mat clouds(cv::Size size, double coarsest_px, double fade, RandomStream& random) {
-  cv::Mat sum(size, CV_32F, cv::Scalar(0));
-  double weight = 1 - fade;
-  double cell = coarsest_px;
-  while (cell >= 2) {
-    cv::Mat lattice(int(size.height / cell) + 2, int(size.width / cell) + 2, CV_32F);
-    for (int i = 0; i < lattice.rows * lattice.cols; ++i) {
-      lattice.ptr<float>()[i] = float(random.uniform(-1, 1));
-    }
-    cv::Mat smooth;
-    cv::resize(lattice, smooth, size, 0, 0, cv::INTER_CUBIC);
-    cv::scaleAdd(smooth, weight, sum, sum);
-    cell /= 2;
-    weight *= fade;
-  }
-  return sum;
-}
-
-/// picture + gain * noise, clipped to 0..255.
-cv::Mat grained(const cv::Mat& picture, const cv::Mat& noise, double gain) {
-  cv::Mat sum;
-  cv::addWeighted(picture, 1, noise, gain, 0, sum, CV_8U);
-  return sum;
 }
 
 cv::Point point_in(const cv::Mat& picture, RandomStream& random) {

@@ -31,6 +31,18 @@ TEST(ContactSheet, SpacesPicturesEvenly) {
   }
 }
 
+TEST(ContactSheet, DrawsOnlyWhatItKeeps) {
+  ContactSheet sheet(2, 1);
+  int drawn = 0;
+  const auto draw = [&] {
+    ++drawn;
+    return cv::Mat(2, 2, CV_8UC1);
+  };
+  for (int i = 0; i < 1000; ++i) sheet.offer(draw, std::to_string(i), i == 500 ? 1 : 0);
+  EXPECT_GE(drawn, 3);
+  EXPECT_LE(drawn, 60);  // 9 before each of seven doublings of the stride, half of them again, 1
+}
+
 TEST(ContactSheet, KeepsTheWorstInOrderOfTime) {
   ContactSheet sheet(0, 3);
   const double badness[] = {1, 9, std::nan(""), 0, 7, 2, 8, -4};

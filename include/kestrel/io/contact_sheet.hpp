@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,13 @@ class ContactSheet {
   /// How many evenly spaced pictures and how many of the worst to end with, >= 0.
   ContactSheet(int even, int worst) : even_(even), worst_(worst) {}
 
-  /// Offers the picture of the next frame; only when kept it is turned into a JPEG, whose bytes are
-  /// all that stays in memory. badness: larger is worse;
+  /// Offers the picture of the next frame; only when kept it is drawn and turned into a JPEG, whose
+  /// bytes are all that stays in memory. badness: larger is worse;
   /// 0 or NaN: not to be among the worst.
-  void offer(const cv::Mat& picture, const std::string& caption, double badness = 0);
+  void offer(const std::function<cv::Mat()>& draw, const std::string& caption, double badness = 0);
+  void offer(const cv::Mat& picture, const std::string& caption, double badness = 0) {
+    offer([&] { return picture; }, caption, badness);
+  }
 
   /// The evenly spaced pictures, the first of the run among them, then the worst in order of time
   /// ("worst: " before their captions).

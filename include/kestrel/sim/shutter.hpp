@@ -29,9 +29,9 @@ struct CameraInFlight {
 CameraAt camera_at(const CameraInFlight& motion, double stamp_s, double time_s);
 
 /// The views a frame with this stamp is made of: one, when nothing moves or the shutter is quick.
-/// How many follows from the turning of the camera, rotor vibration included, and from its speed
-/// past things 3 m away.
-Shot shot(const CameraInFlight& motion, double stamp_s, const Camera& camera,
+/// How many follows from how fast what the camera sees moves in its picture at most, around the
+/// stamp: vehicle, vibration and planes.
+Shot shot(const CameraInFlight& motion, double stamp_s, const Renderer& renderer,
           const ShutterOptions& options);
 
 }  // namespace kestrel

@@ -3,12 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taps.hpp"
+#include "rays.hpp"
+#include "seen_plane.hpp"
 
 namespace kestrel::sim_detail {
 
-/// 1 / depth of points too far away to be drawn, 1/m: rays that run along a plane.
-constexpr float kNearlyAlong = 1e-4f;
+/// Where a run's rays meet the plane, texels from the texture's outer edge, and 1 / depth, 1/m.
+struct OnTexture {
+  Run s;
+  Run t;
+  Run w;
+};
+
+inline OnTexture on_texture(const Eigen::Matrix3f& texture_from_ray, const float* rays) {
+  const auto row = [&](int i) {
+    const float a = texture_from_ray(i, 0);
+    const float b = texture_from_ray(i, 1);
+    const float c = texture_from_ray(i, 2);
+    Run values;
+    for (std::size_t k = 0; k < kRun; ++k) values[k] = a * rays[k] + b * rays[kRun + k] + c;
+    return values;
+  };
+  OnTexture at{row(0), row(1), row(2)};
+  Run depth;
+  for (std::size_t k = 0; k < kRun; ++k) depth[k] = std::max(kNearlyAlong, at.w[k]);
+  for (float& z : depth) z = 1 / z;
+  for (std::size_t k = 0; k < kRun; ++k) at.s[k] *= depth[k];
+  for (std::size_t k = 0; k < kRun; ++k) at.t[k] *= depth[k];
+  return at;
+}
 
 inline bool is_all(const Run& run, float value) {
   return std::all_of(run.begin(), run.end(), [value](float x) { return x == value; });

@@ -1,0 +1,6 @@
+#include <immintrin.h>
+
+#include "kernels.hpp"
+
+#define KERNEL(name) name##_baseline
+#include "kernels.inl"
