@@ -172,7 +172,7 @@ void check_yaml(const std::filesystem::path& file) {
     const Camera camera = load_camera(file);
     return fmt::print("{}: a camera: {}\n", file.string(), describe(camera));
   }
-  if (root.has("translation_m") || root.has("data")) {
+  if (root.has("translation_m") || root.has("data") || root.has("preset")) {
     const Mount mount = load_mount(file);
     return fmt::print("{}: a mount: {}\n", file.string(), describe(mount));
   }
