@@ -136,6 +136,7 @@ struct RecordArguments {
 
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
+  std::filesystem::path output;  // folder for the drawings of mounts; empty: none
 };
 
 struct DemoArguments {

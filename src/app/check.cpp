@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include "kestrel/io/camera_file.hpp"
-#include "kestrel/io/mount_file.hpp"
+#include "kestrel/io/run_folder.hpp"
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/task_file.hpp"
 #include "kestrel/io/truth_file.hpp"
 #include "kestrel/lab/lab_plan_file.hpp"
 #include "kestrel/lab/planned_runs.hpp"
-#include "kestrel/servo/interaction.hpp"
 
 #include "autopilot_file.hpp"
+#include "mount_check.hpp"
 #include "simulation_file.hpp"
 #include "sinks.hpp"
 #include "switch_file.hpp"
@@ -20,6 +20,8 @@
 
 namespace kestrel::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kDegree = M_PI / 180;
 
@@ -75,15 +77,8 @@ std::string describe_goal(const Task& task) {
 }
 
 const char* words(Freedom freedom) {
-  switch (freedom) {
-    case Freedom::Six:
-      return "all six body velocities";
-    case Freedom::Four:
-      return "forward, right, down and yaw";
-    case Freedom::Three:
-      return "forward, right and down";
-  }
-  return "nothing";
+  if (freedom == Freedom::Six) return "all six body velocities";
+  return freedom == Freedom::Four ? "forward, right, down and yaw" : "forward, right and down";
 }
 
 std::string describe(const VelocityCommand& limit, const char* per) {
@@ -91,8 +86,6 @@ std::string describe(const VelocityCommand& limit, const char* per) {
                      limit.forward_m_s, limit.right_m_s, limit.down_m_s, per,
                      limit.yaw_rate_rad_s / kDegree, per);
 }
-
-void say(const char* what, const std::string& text) { fmt::print("  {:<12} {}\n", what, text); }
 
 void say_template(const Experiment& e) {
   if (e.template_image) return say("template", "the picture " + e.template_image->string());
@@ -102,14 +95,14 @@ void say_template(const Experiment& e) {
                               box.u, box.v));
 }
 
-void check_task(const Section& root) {
+void check_task(const Section& root, const fs::path& drawings) {
   const Experiment e = read_experiment(root);
   fmt::print("{}: a task\n", e.file.string());
   say("frames", e.source);
   say("commands", e.sink);
   if (e.source != "simulation") say_template(e);
   say("camera", describe(e.task.camera));
-  say("mount", describe(e.task.body_from_camera));
+  say_mount(e.task, e.file, drawings);
   say("tracker", describe(e.task.track));
   say("goal", describe_goal(e.task));
   say("law", fmt::format("{}, gain {} 1/s, over {}", name(e.task.servo.law),
@@ -132,7 +125,7 @@ void check_task(const Section& root) {
   check_sink(e.sink);
 }
 
-void check_sequence(const std::filesystem::path& file) {
+void check_sequence(const fs::path& file) {
   const SequenceDescription d = load_sequence(file);
   fmt::print("{}: a sequence: {}\n", file.string(), d.what);
   say("images", d.sequence.input);
@@ -144,7 +137,7 @@ void check_sequence(const std::filesystem::path& file) {
   say("licence", d.licence);
 }
 
-void check_plan(const std::filesystem::path& file) {
+void check_plan(const fs::path& file) {
   const LabPlan plan = load_plan(file);
   fmt::print("{}: a comparison: {}\n", file.string(), plan.title);
   say("laws", std::to_string(plan.laws.size() + plan.helicopter.laws.size()));
@@ -152,7 +145,7 @@ void check_plan(const std::filesystem::path& file) {
   say("runs", std::to_string(planned_runs(plan, "").size()));
 }
 
-void check_switch(const std::filesystem::path& file) {
+void check_switch(const fs::path& file) {
   const SwitchTask task = read_switch_task(file);
   fmt::print("{}: a switch\n", file.string());
   for (std::size_t i = 0; i < task.loop.places.size(); ++i) {
@@ -165,36 +158,35 @@ void check_switch(const std::filesystem::path& file) {
 }
 
 /// Which kind of file a YAML file is, by its keys.
-void check_yaml(const std::filesystem::path& file) {
+void check_yaml(const fs::path& file, const fs::path& drawings) {
   const Section root = Section::load(file);
   if (root.has("images")) return check_sequence(file);
   if (root.has("camera_matrix") || root.has("Camera_Matrix")) {
     const Camera camera = load_camera(file);
     return fmt::print("{}: a camera: {}\n", file.string(), describe(camera));
   }
-  if (root.has("translation_m") || root.has("data")) {
-    const Mount mount = load_mount(file);
-    return fmt::print("{}: a mount: {}\n", file.string(), describe(mount));
-  }
+  if (root.has("translation_m") || root.has("data") || root.has("preset"))
+    return check_mount(file, drawings);
   if (root.has("laws") || root.has("scenarios") || root.has("helicopter")) return check_plan(file);
   if (root.has("links")) return check_switch(file);
-  check_task(root);
+  check_task(root, drawings);
 }
 
-void check_file(const std::filesystem::path& file) {
+void check_file(const fs::path& file, const fs::path& drawings) {
   if (file.extension() == ".xml") {
     return fmt::print("{}: a camera: {}\n", file.string(), describe(load_camera(file, "")));
   }
-  check_yaml(file);
+  check_yaml(file, drawings);
 }
 
 }  // namespace
 
 int run(const CheckArguments& a) {
   int wrong = 0;
+  const fs::path drawings = a.output.empty() ? fs::path() : create_run_folder(a.output);
   for (const auto& file : a.files) {
     try {
-      check_file(file);
+      check_file(file, drawings);
     } catch (const std::exception& error) {
       fmt::print(stderr, "{}\n", error.what());
       ++wrong;

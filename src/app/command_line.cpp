@@ -142,6 +142,9 @@ void add_check(CLI::App& app, const std::shared_ptr<CheckArguments>& a) {
                                   "Validate task, camera, mount and sequence files and say what "
                                   "was understood");
   verb->add_option("FILES", a->files, "Files to check")->required();
+  verb->add_option("--output,--save", a->output,
+                   "Folder to make, for a drawing of the mount of each task and mount file "
+                   "(default: no drawing)");
 }
 
 void add_demo(CLI::App& app, const std::shared_ptr<DemoArguments>& a) {

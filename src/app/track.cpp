@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "kestrel/eval/track_metrics.hpp"
+#include "kestrel/geometry/straight_view.hpp"
 #include "kestrel/io/camera_file.hpp"
 #include "kestrel/io/overlay.hpp"
 #include "kestrel/io/truth_file.hpp"
@@ -102,8 +103,11 @@ class TrackRun {
  private:
   void add_pose(const Track& seen, LogRow& row) {
     if (!pose_setup_ || !seen.found()) return;
-    const auto pose =
-        plane_pose(*seen.image_from_template, pose_setup_->size, pose_setup_->camera, last_pose_);
+    const PlaneSize& size = pose_setup_->size;
+    const auto view = straight_view(*seen.image_from_template, size.width_px, size.height_px,
+                                    pose_setup_->camera);
+    if (!view) return;
+    const auto pose = plane_pose(view->image_from_template, size, view->camera, last_pose_);
     if (!pose) return;
     last_pose_ = pose->camera_from_target;
     row.pose = LoggedPose{last_pose_->translation, rotation_vector(last_pose_->rotation),

@@ -5,74 +5,25 @@
 
 #include <fmt/format.h>
 
-#include "kestrel/geometry/rotation.hpp"
-#include "kestrel/geometry/twist.hpp"
+#include "kestrel/geometry/mount_preset.hpp"
+
+#include "pose_section.hpp"
 
 namespace kestrel {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kLargestDefect = 1e-3;  // of numbers written with three decimals
-constexpr double kRounding = 1e-14;      // of a rotation in full precision
 constexpr double kLargestLever_m = 20;
 
-Eigen::Matrix3d rotation_from_matrix(const Section& section) {
-  const std::vector<double> n = section.numbers("rotation", 9);
-  Eigen::Matrix3d M;
-  M << n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8];
-  const double columns = (M.transpose() * M - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (columns > kLargestDefect) {
-    section.fail("rotation",
-                 fmt::format("is no rotation: R^T R is off the identity by {:.3g}; give "
-                             "orthogonal columns of length 1, or rpy_deg",
-                             columns));
-  }
-  if (M.determinant() < 0) {
-    section.fail("rotation",
-                 "is a mirror image (determinant -1), no rotation; negate or swap one column, or "
-                 "give rpy_deg");
-  }
-  return columns > kRounding ? nearest_rotation(M) : M;  // what is one stays as it is, to the bit
-}
-
-Eigen::Matrix3d rotation_from_angles(const Section& section) {
-  const std::vector<double> rpy = section.numbers("rpy_deg", 3);
-  for (const double angle : rpy) {
-    if (std::abs(angle) > 360) {
-      section.fail("rpy_deg", fmt::format("{} is beyond 360 degrees; give degrees", angle));
-    }
-  }
-  return rotation_from_rpy(rpy[0] * kDegree, rpy[1] * kDegree, rpy[2] * kDegree);
-}
-
-Eigen::Matrix3d rotation_from_axis(const Section& section) {
-  const std::vector<double> theta_u = section.numbers("theta_u_deg", 3);
-  return rotation_from_vector(Eigen::Vector3d(theta_u[0], theta_u[1], theta_u[2]) * kDegree);
-}
-
-/// ViSP's vpPoseVector: translation and theta*u.
-Displacement visp_pose(const Section& section) {
-  if (section.integer("rows") != 6 || section.integer("cols", 1) != 1) {
-    section.fail("rows", "is no pose of ViSP; give 6 rows and 1 column");
-  }
-  const std::vector<double> n = section.numbers("data", 6);
-  return {rotation_from_vector({n[3], n[4], n[5]}), {n[0], n[1], n[2]}};
-}
-
-Displacement displacement(const Section& section) {
-  if (section.has("data")) return visp_pose(section);
+/// One of the ready-made directions, at the reference point unless translation_m says where.
+Mount mount_of_preset(const Section& section) {
+  refuse_ambiguous(section);
+  only_one_of(section, {"preset", "rotation", "theta_u_deg", "rpy_deg", "data"});
+  std::vector<std::pair<std::string, MountPreset>> words;
+  for (const MountPreset preset : all_mount_presets()) words.emplace_back(name(preset), preset);
+  const Eigen::Matrix3d R = mount_rotation(section.choice("preset", words));
+  if (!section.has("translation_m")) return {R, Eigen::Vector3d::Zero()};
   const std::vector<double> t = section.numbers("translation_m", 3);
-  std::vector<std::string> given;
-  for (const char* form : {"rotation", "theta_u_deg", "rpy_deg"}) {
-    if (section.has(form)) given.emplace_back(form);
-  }
-  if (given.size() > 1) {
-    section.fail(given[0], "is given together with " + given[1] + "; remove one of the two");
-  }
-  const std::string form = given.empty() ? "rpy_deg" : given[0];
-  const Eigen::Matrix3d R = form == "rotation"      ? rotation_from_matrix(section)
-                            : form == "theta_u_deg" ? rotation_from_axis(section)
-                                                    : rotation_from_angles(section);
   return {R, {t[0], t[1], t[2]}};
 }
 
@@ -105,18 +56,10 @@ std::string place(const Eigen::Vector3d& t) {
 
 }  // namespace
 
-template <class To, class From>
-Transform<To, From> read_pose(const Section& section) {
-  const Displacement pose = displacement(section);
-  return {pose.rotation, pose.translation};
-}
-
-template Mount read_pose(const Section&);
-template TargetPose read_pose(const Section&);
-
 Mount read_mount(const Section& section) {
   if (section.has("file")) return load_mount(section.path("file"));
-  auto mount = read_pose<frame::Body, frame::Camera>(section);
+  const Mount mount = section.has("preset") ? mount_of_preset(section)
+                                            : read_pose<frame::Body, frame::Camera>(section);
   const double lever = mount.translation.norm();
   if (lever > kLargestLever_m) {
     section.fail(

@@ -1,5 +1,7 @@
 #include "kestrel/loop/step.hpp"
 
+#include "kestrel/geometry/straight_view.hpp"
+
 namespace kestrel {
 namespace {
 
@@ -7,10 +9,8 @@ PlaneSize plane_size(const Template& model, const Task& task) {
   return {model.width(), model.height(), task.target_width_m, task.target_height_m};
 }
 
-}  // namespace
-
-std::vector<Feature> corner_features(const Homography& image_from_template, const Template& model,
-                                     const TargetPose& camera_from_target, const Task& task) {
+std::vector<Feature> corners_of(const StraightView& view, const Template& model,
+                                const TargetPose& camera_from_target, const Task& task) {
   const double left = -0.5;  // the outer edge of the first pixel, whose centre is at 0
   const double right = model.width() - 0.5;
   const double bottom = model.height() - 0.5;
@@ -19,10 +19,18 @@ std::vector<Feature> corner_features(const Homography& image_from_template, cons
   const std::array<Eigen::Vector3d, 4> in_target = target_corners(task);
   std::vector<Feature> corners;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const ImagePoint at = task.camera.to_image_point(image_from_template * edges[i]);
+    const ImagePoint at = view.camera.to_image_point(view.image_from_template * edges[i]);
     corners.push_back({at, (camera_from_target * in_target[i]).z()});
   }
   return corners;
+}
+
+}  // namespace
+
+std::vector<Feature> corner_features(const Homography& image_from_template, const Template& model,
+                                     const TargetPose& camera_from_target, const Task& task) {
+  const auto view = straight_view(image_from_template, model.width(), model.height(), task.camera);
+  return view ? corners_of(*view, model, camera_from_target, task) : std::vector<Feature>{};
 }
 
 LoopState start(const Tracker& tracker, const Frame& first) {
@@ -36,14 +44,15 @@ Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Ta
   const Template& model = tracker.model();
   Step s;
   s.track = tracker.track(frame, state.track);
+  std::optional<StraightView> view;
   if (s.track.found()) {
-    s.pose = plane_pose(*s.track.image_from_template, plane_size(model, task), task.camera,
+    view = straight_view(*s.track.image_from_template, model.width(), model.height(), task.camera);
+  }
+  if (view) {
+    s.pose = plane_pose(view->image_from_template, plane_size(model, task), view->camera,
                         state.pose, task.pose);
   }
-  if (s.pose) {
-    s.measured =
-        corner_features(*s.track.image_from_template, model, s.pose->camera_from_target, task);
-  }
+  if (s.pose) s.measured = corners_of(*view, model, s.pose->camera_from_target, task);
   s.decision =
       decide(s.measured, frame.attitude, frame.stamp_s, state.decision, task, velocity_ned_m_s);
   s.next.track = s.track.next;

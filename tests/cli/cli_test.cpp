@@ -170,6 +170,20 @@ TEST_F(Cli, ChecksTheFilesItComesWith) {
   EXPECT_SAYS(outcome.out, "6 of 6 files are good");
 }
 
+TEST_F(Cli, CheckDrawsTheMountAndSaysWhatTheVehicleDoes) {
+  const fs::path source = KESTREL_SOURCE_DIR;
+  std::ofstream(path("down.yaml")) << "preset: down\n";
+  const Outcome outcome = kestrel(
+      {"check", (source / "tasks/hover.yaml").string(), "down.yaml", "--output", "drawings"},
+      folder_.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_SAYS(outcome.out, "target to the right in the image -> the vehicle moves right");
+  EXPECT_SAYS(outcome.out, "target lower in the image -> the vehicle moves down");
+  EXPECT_SAYS(outcome.out, "target lower in the image -> the vehicle moves backward");
+  EXPECT_SAYS(read(path("drawings/hover_mount.svg")), "From its right side");
+  EXPECT_SAYS(read(path("drawings/down_mount.svg")), "unknown, 60 x 45 degrees");
+}
+
 TEST_F(Cli, CheckNamesFileLineAndKey) {
   const std::string good = read(fs::path(KESTREL_SOURCE_DIR) / "tasks/hover.yaml");
   const fs::path calib = fs::path(KESTREL_SOURCE_DIR) / "calib";

@@ -1,5 +1,6 @@
 #include "kestrel/io/mount_file.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/core/vpPoseVector.h>
 
+#include "kestrel/geometry/mount_preset.hpp"
 #include "kestrel/geometry/rotation.hpp"
 
 #include "support/random.hpp"
@@ -45,6 +47,8 @@ TEST(ShippedMounts, LookWhereTheirNamesSay) {
   expect_axes(load_mount(kCalib / "mount_forward.yaml"), right, down, forward);
   expect_axes(load_mount(kCalib / "mount_down.yaml"), right, -forward, down);
   expect_axes(load_mount(kCalib / "mount_left.yaml"), forward, down, -right);
+  expect_axes(load_mount(kCalib / "mount_forward_45_down.yaml"), right,
+              std::sqrt(0.5) * (down - forward), std::sqrt(0.5) * (down + forward));
   EXPECT_EQ(load_mount(kCalib / "mount_forward.yaml").translation, Vector3d(0.30, 0, 0.10));
 }
 
@@ -111,6 +115,66 @@ TEST_F(MountFile, RefusesAMatrixThatIsNoRotation) {
   EXPECT_THAT(error_of(matrix("1, 0, 0, 0, 1, 0, 0, 0")), HasSubstr("has 8 numbers; give 9"));
 }
 
+TEST_F(MountFile, ReadsAPresetHereOrThere) {
+  for (const MountPreset preset : all_mount_presets()) {
+    const std::string word = std::string("preset: ") + name(preset) + "\n";
+    EXPECT_EQ(load(word).rotation, mount_rotation(preset));
+    EXPECT_EQ(load(word).translation, Vector3d(0, 0, 0));
+    EXPECT_EQ(load(word + "translation_m: [0.3, 0, 0.1]\n").translation, Vector3d(0.3, 0, 0.1));
+  }
+  EXPECT_THAT(error_of("preset: sideways\n"),
+              AllOf(HasSubstr("m.yaml:1: preset"), HasSubstr("forward_45_down")));
+  EXPECT_THAT(error_of("preset: down\ntranslation_m: [90, 0, 0]\n"), HasSubstr("90 m"));
+}
+
+TEST_F(MountFile, RefusesTwoRotationsAtOnce) {
+  const std::string place = "translation_m: [0, 0, 0]\n";
+  EXPECT_THAT(error_of("preset: down\n" + place + "rpy_deg: [0, 0, 90]\n"),
+              HasSubstr("m.yaml:1: preset: is given together with rpy_deg; remove one"));
+  EXPECT_THAT(error_of(place + "rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1]\npreset: down\n"),
+              HasSubstr("m.yaml:3: preset: is given together with rotation"));
+  EXPECT_THAT(error_of("preset: down\nrows: 6\ncols: 1\ndata: [0, 0, 0, 0, 0, 0]\n"),
+              HasSubstr("preset: is given together with data"));
+  EXPECT_THAT(error_of("rows: 6\ncols: 1\ndata: [0, 0, 0, 0, 0, 0]\n" + place),
+              HasSubstr("m.yaml:3: data: is given together with translation_m"));
+  EXPECT_THAT(error_of("rows: 6\ncols: 1\ndata: [0, 0, 0, 0, 0, 0]\nrpy_deg: [0, 0, 0]\n"),
+              HasSubstr("m.yaml:3: data: is given together with rpy_deg"));
+}
+
+TEST_F(MountFile, RefusesWhatCanBeReadInTwoWays) {
+  const std::string place = "translation_m: [0, 0, 0]\n";
+  const auto error = [&](const std::string& line) { return error_of(place + line + "\n"); };
+  const auto expect = [&](const std::string& key, const std::string& why) {
+    EXPECT_THAT(error(key + ": [0, 0, 90]"),
+                AllOf(HasSubstr("m.yaml:2: " + key + ": is ambiguous"), HasSubstr(why),
+                      HasSubstr("Rz(yaw) Ry(pitch) Rx(roll)")));
+    EXPECT_THAT(error("rpy_deg: [0, 0, 90]\n" + key + ": [0, 0, 1.5]"),
+                HasSubstr("m.yaml:3: " + key + ": is ambiguous"));
+    EXPECT_THAT(error("preset: down\n" + key + ": [0, 0, 1.5]"),
+                HasSubstr("m.yaml:3: " + key + ": is ambiguous"));
+  };
+  for (const char* key :
+       {"euler", "euler_deg", "euler_rad", "angles_deg", "angles_rad", "ypr_deg", "ypr_rad"})
+    expect(key, "order");
+  for (const char* key : {"rpy_rad", "theta_u_rad"}) expect(key, "radians are not read");
+  for (const char* key : {"rpy", "theta_u"}) expect(key, "unit");
+  for (const char* key : {"quaternion", "quaternion_xyzw", "quaternion_wxyz"})
+    expect(key, "w first and w last");
+  expect("camera_from_body", "inverse");
+  expect("translation_mm", "metres");
+}
+
+TEST_F(MountFile, RefusesDegreesThatLookLikeRadians) {
+  const auto error = [&](const std::string& angles) {
+    return error_of("translation_m: [0, 0, 0]\nrpy_deg: [" + angles + "]\n");
+  };
+  EXPECT_THAT(error("1.5708, 0, 1.5708"),
+              AllOf(HasSubstr("m.yaml:2: rpy_deg: looks like radians"), HasSubstr("give degrees")));
+  EXPECT_THAT(error("0, 0, -3.1416"), HasSubstr("looks like radians"));
+  EXPECT_EQ(error("1.6, 0, 90"), "nothing was thrown");
+  EXPECT_EQ(error("0, 0, 0"), "nothing was thrown");
+}
+
 TEST_F(MountFile, TakesTheRotationNearestToRoundedNumbers) {
   const Mount m = load(
       "translation_m: [0, 0, 0]\n"
@@ -129,8 +193,8 @@ TEST_F(MountFile, RefusesWhatIsMissingTwofoldOrInOtherUnits) {
               HasSubstr("m.yaml:1: translation_m: puts the camera 316.2 m"));
   EXPECT_THAT(error_of("translation_m: [0, 0, 0]\nrpy_deg: [0, 0, 900]\n"), HasSubstr("360"));
   EXPECT_THAT(error_of("translation_m: [0, 0, 0]\nrpy_deg: [0, .nan, 0]\n"), HasSubstr("finite"));
-  EXPECT_THAT(error_of("translation_m: [0, 0, 0]\nrpy_deg: [0, 0, 0]\nrpy: 1\n"),
-              HasSubstr("m.yaml:3: rpy: is no key here; did you mean rpy_deg?"));
+  EXPECT_THAT(error_of("translation_m: [0, 0, 0]\nrpy_deg: [0, 0, 0]\nrpy_de: 1\n"),
+              HasSubstr("m.yaml:3: rpy_de: is no key here; did you mean rpy_deg?"));
   EXPECT_THAT(error_of("rows: 4\ncols: 4\ndata: [1, 2, 3, 4, 5, 6]\n"), HasSubstr("give 6 rows"));
   EXPECT_THAT(error_of("rows: 6\ncols: 1\ndata: [1, 2]\n"), HasSubstr("has 2 numbers; give 6"));
 }

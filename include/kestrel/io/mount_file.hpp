@@ -15,11 +15,14 @@ namespace kestrel {
 /// ViSP's pose (vpPoseVector's YAML): `rows: 6`, `cols: 1`, `data: [tx, ty, tz, tux, tuy, tuz]`.
 /// The rotation's columns are the axes of From seen in To. A matrix within 1e-3 of a rotation is
 /// replaced by the nearest one, one to rounding kept as it is; anything else throws FileError that
-/// says how far off it is.
+/// says how far off it is. So do two of these ways at once, angles that look like radians, and keys
+/// that can be read in more than one way (euler_deg, rpy_rad, quaternion ...): each with its
+/// remedy.
 template <class To, class From>
 Transform<To, From> read_pose(const Section& section);
 
-/// How the camera is mounted (body_from_camera): read_pose, or `file:`, another file with one.
+/// How the camera is mounted (body_from_camera): read_pose; or `preset:`, a direction of
+/// mount_preset, with `translation_m` or at the reference point; or `file:`, another file with one.
 /// Throws FileError also for a camera more than 20 m from the helicopter's reference point.
 Mount read_mount(const Section& section);
 

@@ -30,8 +30,9 @@ struct Step {
 };
 
 /// The features of the target's corners in the tilted camera: the image of the edges of the
-/// template (half a pixel outside the centres of its corner pixels), the lens removed, with the
-/// depths of the pose. In the order of desired_features.
+/// template (half a pixel outside the centres of its corner pixels), the lens removed
+/// (straight_view), with the depths of the pose. In the order of desired_features; empty where the
+/// lens shows too little of the template.
 std::vector<Feature> corner_features(const Homography& image_from_template, const Template& model,
                                      const TargetPose& camera_from_target, const Task& task);
 
