@@ -68,8 +68,8 @@ class Fold {
     std::optional<Eigen::Vector3d> velocity_m_s;
     if (chain_.velocity) velocity_m_s = chain_.velocity(frame_.stamp_s);
     Step now = step(chain_.tracker, frame_, state_, task_, velocity_m_s);
-    if (chain_.ground && chain_.ground->desk().mode() != FlightMode::Servo) hold_still(now);
-    chain_.sink.send(now.decision.command, command_stamp_s(now.decision.command));
+    if (chain_.ground) steer(now);
+    chain_.sink.send(now.decision.command, command_stamp_s(now.decision));
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
     take_time(now);
     if (chain_.ground && has_image(frame_)) {
@@ -116,10 +116,12 @@ class Fold {
   }
 
  private:
-  /// While the source is silent, zeros are decided anew; a command that fades is as old as the last
-  /// picture, and no sink may take it for younger.
-  double command_stamp_s(const VelocityCommand& command) const {
-    const bool is_old = !has_image(frame_) && !command.vector().isZero(0);
+  /// While the source is silent, zeros are decided anew, and so is what a hand asks for, which
+  /// rests on no picture; a command that fades is as old as the last picture, and no sink may take
+  /// it for younger.
+  double command_stamp_s(const Decision& decision) const {
+    const bool fades = decision.state != CommandState::Hover;
+    const bool is_old = !has_image(frame_) && fades && !decision.command.vector().isZero(0);
     return is_old ? seen_stamp_s_ : frame_.stamp_s;
   }
 
@@ -127,6 +129,10 @@ class Fold {
   void take_course() {
     std::optional<Course> course = chain_.ground->desk().course();
     if (!course) return;
+    if (course->task.servo.law != task_.servo.law) {  // what the one has learned is not the other's
+      state_.decision.law = LawState{};
+      state_.decision.law_since_s.reset();
+    }
     task_ = std::move(course->task);
     if (course->tracker) {
       chain_.tracker = std::move(*course->tracker);
@@ -135,8 +141,9 @@ class Fold {
     drawn_.goal_corners = goal_corners(chain_.tracker.model(), task_);
   }
 
-  static void hold_still(Step& now) {
-    now.decision = stopped(std::move(now.decision));
+  /// What the operator makes of the decision.
+  void steer(Step& now) const {
+    now.decision = chain_.ground->steered(std::move(now.decision), state_.decision);
     now.next.decision = now.decision.next;
   }
 

@@ -15,9 +15,10 @@ namespace kestrel::app {
 class Ground {
  public:
   /// Serves the page when a port is asked for, and says on stderr, once, where it is and how to get
-  /// in. The sink must outlive this. Throws std::runtime_error for a port or a token file that will
-  /// not do.
-  Ground(const GroundArguments& arguments, const Task& task, CommandSink& sink);
+  /// in. The sink must outlive this, and what facts looks at. Throws std::runtime_error for a port
+  /// or a token file that will not do.
+  Ground(const GroundArguments& arguments, const Task& task, CommandSink& sink,
+         Facts facts = nullptr);
 
   /// Where the chain sends: the gate, or without a ground station the sink itself.
   CommandSink& sink() { return gate_ ? *gate_ : sink_; }

@@ -72,7 +72,8 @@ RunResult servo(const ServoArguments& a) {
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
   LearnedTask learned_task = learned(experiment, simulation, first);
-  Ground ground(a.ground, learned_task.task, *sink.commands);  // a taken port leaves no folder
+  Ground ground(a.ground, learned_task.task, *sink.commands,
+                sink.facts);  // a taken port leaves no folder
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   std::unique_ptr<WireLog> times;
   if (sink.take_times) times = std::make_unique<WireLog>(recorder.folder() / "wire.csv");

@@ -51,7 +51,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   const Task& task = loaded.experiment.task;  // its goal is that of the target, not of the template
   LearnedTask prepared = learned_at_goal(task, scene);
   const Sink outside = open_sink(a.sink, loaded.autopilot, std::nullopt);
-  Ground ground(a.ground, prepared.task, *outside.commands);
+  Ground ground(a.ground, prepared.task, *outside.commands, outside.facts);
   TeeSink sink(world, ground.sink());
   std::optional<FlightFilm> film;
   if (!a.record.empty()) film.emplace(a.record, film_name(a), scene, simulation.world);

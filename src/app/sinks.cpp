@@ -1,7 +1,11 @@
 #include "sinks.hpp"
 
+#include <cmath>
 #include <deque>
+#include <mutex>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "kestrel/link/autopilot_link.hpp"
 #include "kestrel/link/command_link.hpp"
@@ -21,14 +25,19 @@ class TimedLink final : public CommandSink {
   TimedLink(const Address& to, std::optional<double> stamp_origin_s)
       : link_(to), stamp_origin_s_(stamp_origin_s) {}
   void send(const VelocityCommand& command, double stamp_s) noexcept override {
+    const std::lock_guard<std::mutex> lock(mutex_);  // an operator's stop comes from its own thread
     link_.send(command, stamp_s);
     const double sent_s = link_clock_s();
     if (stamp_origin_s_) stamp_s += *stamp_origin_s_;
     times_.push_back({sent_s, stamp_origin_s_ ? std::optional(stamp_s) : std::nullopt});
     if (times_.size() > kMaxTimes) times_.pop_front();
   }
-  long failures() const override { return link_.failures(); }
+  long failures() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return link_.failures();
+  }
   std::vector<WireTime> take_times() {
+    const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<WireTime> times(times_.begin(), times_.end());
     times_.clear();
     return times;
@@ -36,6 +45,7 @@ class TimedLink final : public CommandSink {
 
  private:
   static constexpr std::size_t kMaxTimes = 4096;  // nobody may ask
+  mutable std::mutex mutex_;
   CommandLink link_;
   std::optional<double> stamp_origin_s_;
   std::deque<WireTime> times_;
@@ -75,13 +85,44 @@ void add_autopilot(Summary& summary, AutopilotLink& link) {
   if (s.clock) summary.add("clock known within", s.clock->error_s * 1e3, "ms");
 }
 
+void add_vehicle(std::vector<Fact>& facts, const AdapterStatus& s) {
+  if (!s.vehicle) return;
+  const mavlink::Heartbeat& beat = s.vehicle->heartbeat;
+  constexpr std::uint8_t kArmed = 128;  // MAV_MODE_FLAG_SAFETY_ARMED
+  if (s.autopilot) facts.push_back({"Mode", mode_name(*s.autopilot, beat.custom_mode)});
+  facts.push_back({"Armed", (beat.base_mode & kArmed) != 0 ? "yes" : "no"});
+  facts.push_back({"Landed", name(s.vehicle->landed)});
+}
+
+/// What the autopilot tells of itself, and how the line to it is.
+std::vector<Fact> facts_of(const AutopilotLink& link) {
+  const AdapterStatus s = link.status();
+  std::vector<Fact> facts{{"Autopilot", s.autopilot ? name(*s.autopilot) : "not heard"},
+                          {"Control", std::string(name(s.control)) + ": " + s.words}};
+  add_vehicle(facts, s);
+  if (const auto motion = link.motion_at(link_clock_s())) {
+    const Eigen::Vector3d& v = motion->velocity_ned_m_s;
+    facts.push_back(
+        {"Flies at", fmt::format("{:.2f} m/s, {:+.2f} m/s up", v.head<2>().norm(), -v.z())});
+    facts.push_back(
+        {"Height", fmt::format("{:.2f} m over its origin", -motion->position_ned_m.z())});
+  }
+  facts.push_back({"Setpoints", fmt::format("{}, {} of them zero; now {}", s.counts.setpoints,
+                                            s.counts.zeros, name(s.stream))});
+  facts.push_back(
+      {"Heard", fmt::format("{} frames, {} damaged", s.counts.received, s.counts.malformed)});
+  if (s.clock)
+    facts.push_back({"Clock", fmt::format("known within {:.1f} ms", s.clock->error_s * 1e3)});
+  return facts;
+}
+
 Sink autopilot_sink(const std::string& address, const AutopilotOptions& options,
                     std::optional<double> stamp_origin_s) {
   auto link = std::make_unique<AutopilotLink>(parse_address(address), options, stamp_origin_s);
   AutopilotLink& it = *link;
   return {std::move(link), [&it](double stamp_s) { return it.attitude_at(stamp_s); },
           [&it](Summary& summary) { add_autopilot(summary, it); },
-          [&it] { return times_of(it.take_sent()); }};
+          [&it] { return times_of(it.take_sent()); }, [&it] { return facts_of(it); }};
 }
 
 [[noreturn]] void refuse(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kestrel/geometry/attitude.hpp"
+#include "kestrel/ground/ground_station.hpp"
 #include "kestrel/io/summary.hpp"
 #include "kestrel/io/wire_log.hpp"
 #include "kestrel/link/autopilot_adapter.hpp"
@@ -24,6 +25,8 @@ struct Sink {
   std::function<void(Summary&)> report;
   /// When commands left since the last call; null for a sink that does not know.
   std::function<std::vector<WireTime>()> take_times;
+  /// What is known of the vehicle and of the way to it now; null for a sink that does not know.
+  Facts facts{};
 };
 
 /// The sink of a task: "udp://HOST:PORT" (setpoints and nothing else), "autopilot:udp://HOST:PORT"

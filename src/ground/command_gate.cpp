@@ -4,9 +4,21 @@ namespace kestrel {
 
 void CommandGate::send(const VelocityCommand& command, double stamp_s) noexcept {
   const std::lock_guard<std::mutex> lock(mutex_);
-  behind_.send(is_open_ ? command : VelocityCommand::hover(), stamp_s);
   stamp_s_ = stamp_s;
   has_sent_ = true;
+  pass(is_open_ ? command : VelocityCommand::hover());
+}
+
+/// With the mutex held.
+void CommandGate::pass(const VelocityCommand& command) noexcept {
+  behind_.send(command, stamp_s_);
+  ++counts_.commands;
+  counts_.zeros += command.vector().isZero(0) ? 1 : 0;
+}
+
+GateCounts CommandGate::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counts_;
 }
 
 long CommandGate::failures() const {
@@ -17,7 +29,7 @@ long CommandGate::failures() const {
 void CommandGate::close() noexcept {
   const std::lock_guard<std::mutex> lock(mutex_);
   is_open_ = false;
-  if (has_sent_) behind_.send(VelocityCommand::hover(), stamp_s_);
+  if (has_sent_) pass(VelocityCommand::hover());
 }
 
 void CommandGate::open() noexcept {

@@ -1,5 +1,6 @@
-// What GroundDesk does to the course: gain, goal and template.
+// What GroundDesk does to the course: gain, law, limits, goal and template.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace {
 
 Answer refused(const std::string& words) { return {Answer::Kind::Refused, words}; }
 Answer done(const std::string& words) { return {Answer::Kind::Done, words}; }
+
+double degrees(double rad) { return rad * 180 / M_PI; }
 
 /// The homography of a template to the image it was learned from.
 Homography placed(const PixelBox& box) {
@@ -48,6 +51,44 @@ Answer GroundDesk::set_gain(double gain_per_s) {
   task.servo.gain_per_s = gain_per_s;
   if (task.servo.far_gain_per_s) *task.servo.far_gain_per_s *= share;
   return steer(task, std::nullopt, fmt::format("gain {:.3g} 1/s", gain_per_s));
+}
+
+Answer GroundDesk::set_law(const std::string& word) {
+  const auto law = law_named(word);
+  if (!law) return refused("there is no law of that name");
+  Task task = task_;
+  task.servo.law = *law;
+  return steer(task, std::nullopt, fmt::format("law {}", word));
+}
+
+Answer GroundDesk::set_limits(const VelocityCommand& speed) {
+  constexpr double kRounding = 1e-6;  // of degrees to radians and back, in a page
+  const Eigen::Array4d most = most_speed_.vector().array();
+  if ((speed.vector().array() > most * (1 + kRounding)).any()) {
+    return refused(fmt::format(
+        "the task allows {:.3g} m/s forward, {:.3g} right, {:.3g} down and {:.3g} deg/s at most",
+        most[0], most[1], most[2], degrees(most[3])));
+  }
+  Task task = task_;
+  task.limits.speed = VelocityCommand::from_vector(speed.vector().array().min(most).matrix());
+  const VelocityCommand& v = task.limits.speed;
+  return steer(task, std::nullopt,
+               fmt::format("at most {:.3g} m/s forward, {:.3g} right, {:.3g} down, {:.3g} deg/s",
+                           v.forward_m_s, v.right_m_s, v.down_m_s, degrees(v.yaw_rate_rad_s)));
+}
+
+Answer GroundDesk::set_goal(const VehiclePlace& place) {
+  Task task = task_;
+  task.goal = seen_from(place, task_.body_from_camera,
+                        level_from_target(task_.goal, task_.body_from_camera));
+  if (!has_whole_target_in_picture(task)) {
+    return refused("from there the target would not be wholly in the picture");
+  }
+  return steer(
+      task, std::nullopt,
+      fmt::format("goal {:.2f} m forward, {:.2f} right, {:.2f} down of the target, {:.1f} deg",
+                  place.position_m.x(), place.position_m.y(), place.position_m.z(),
+                  degrees(place.yaw_rad)));
 }
 
 Answer GroundDesk::hold_view() {

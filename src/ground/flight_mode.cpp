@@ -7,8 +7,19 @@ ModeChange start(FlightMode mode) {
   if (mode == FlightMode::Aborted) {
     return {mode, {Answer::Kind::Refused, "aborted: reset first, then start"}};
   }
+  if (mode == FlightMode::Sticks) {
+    return {mode, {Answer::Kind::Refused, "let go of the sticks first, then start"}};
+  }
   const bool runs = mode == FlightMode::Servo;
   return {FlightMode::Servo, {Answer::Kind::Done, runs ? "servoing already" : "servoing"}};
+}
+
+ModeChange grip(FlightMode mode) {
+  if (mode == FlightMode::Aborted) {
+    return {mode, {Answer::Kind::Refused, "aborted: reset first, then take the sticks"}};
+  }
+  return {FlightMode::Sticks,
+          {Answer::Kind::Done, "you have the sticks: zero velocity until you move them"}};
 }
 
 ModeChange hover(FlightMode mode) {
@@ -31,6 +42,8 @@ const char* name(FlightMode mode) {
       return "hover";
     case FlightMode::Servo:
       return "servo";
+    case FlightMode::Sticks:
+      return "sticks";
     case FlightMode::Aborted:
       return "aborted";
   }
@@ -48,6 +61,8 @@ ModeChange changed(FlightMode mode, Ask ask) {
       return reset(mode);
     case Ask::Start:
       return start(mode);
+    case Ask::Grip:
+      return grip(mode);
     default:
       return {mode, {}};
   }

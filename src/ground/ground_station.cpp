@@ -1,5 +1,6 @@
 #include "kestrel/ground/ground_station.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <thread>
@@ -22,6 +23,9 @@ void require(bool good, const char* what) {
 
 /// A word that no other run has: a part of a token that is thrown away.
 std::string word_of_this_run() { return random_token().text().substr(0, 16); }
+
+/// How often sticks that nobody holds are looked for: the dead man is late by so much at most.
+constexpr std::chrono::milliseconds kLook{20};
 
 /// A view and when it was shown.
 struct Shown {
@@ -46,11 +50,20 @@ struct GroundStation::Parts {
   HttpServer page;
   HttpServer commands;
   std::thread encoder;
+  std::thread watchman;
 
   Parts(const GroundOptions& options, const AccessToken& token, const Task& task, CommandGate& gate,
-        Clock now_s)
-      : shared{options, token, std::move(now_s), {task, gate, word_of_this_run()}, {}, {}, {0},
-               {0},     {0}},
+        Clock now_s, Facts facts)
+      : shared{options,
+               token,
+               std::move(now_s),
+               std::move(facts),
+               {task, gate, word_of_this_run()},
+               {},
+               {},
+               {0},
+               {0},
+               {0}},
         page(kPageThreads + std::size_t(options.max_streams)),
         commands(kCommandThreads) {
     serve_page(page.routes(), shared);
@@ -61,6 +74,7 @@ struct GroundStation::Parts {
         options.host, next ? std::uint16_t(options.port + 1) : options.command_port);
     shared.page_port = page.listen(options.host, options.port);
     encoder = std::thread([this] { encode(); });
+    watchman = std::thread([this] { watch(); });
   }
 
   ~Parts() {
@@ -69,15 +83,23 @@ struct GroundStation::Parts {
     page.stop();
     commands.stop();
     if (encoder.joinable()) encoder.join();
+    if (watchman.joinable()) watchman.join();
   }
 
-  /// Encodes the newest view for all viewers, as long as there are any, and looks after the desk.
+  /// Looks after the desk; a thread of its own, since nothing that flies may wait for a picture.
+  void watch() {
+    while (!views.is_closed()) {
+      shared.desk.look_after(shared.now_s());
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  /// Encodes the newest view for all viewers, as long as there are any.
   void encode() {
     constexpr double kLook_s = 0.5;
     std::uint64_t known = 0;
     while (!views.is_closed()) {
       const auto shown = views.newer_than(known, kLook_s);
-      shared.desk.look_after(shared.now_s());
       if (!shown.value) continue;
       known = shown.number;
       if (shared.viewers > 0) shared.frames.put(encoded(*shown.value));
@@ -97,9 +119,9 @@ struct GroundStation::Parts {
 };
 
 GroundStation::GroundStation(const GroundOptions& options, const AccessToken& token,
-                             const Task& task, CommandGate& gate, Clock now_s) {
+                             const Task& task, CommandGate& gate, Clock now_s, Facts facts) {
   options.check();
-  parts_ = std::make_unique<Parts>(options, token, task, gate, std::move(now_s));
+  parts_ = std::make_unique<Parts>(options, token, task, gate, std::move(now_s), std::move(facts));
 }
 
 GroundStation::~GroundStation() = default;
@@ -113,6 +135,10 @@ std::string GroundStation::address() const {
   const bool is_ipv6 = host.find(':') != std::string::npos;
   return "http://" + (is_ipv6 ? '[' + host + ']' : host) + ':' + std::to_string(port()) +
          "/#token=" + parts_->shared.token.text();
+}
+
+Decision GroundStation::steered(Decision decision, const DecisionState& before) const {
+  return parts_->shared.desk.steered(std::move(decision), before, parts_->shared.now_s());
 }
 
 GroundRefusals GroundStation::refusals() const {

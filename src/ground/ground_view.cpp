@@ -28,6 +28,29 @@ Json pairs_or_null(const std::optional<Pixels>& pixels) {
   return pixels ? pairs(*pixels) : Json();
 }
 
+Json rounded(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+Json rounded(const VehiclePlace& place) {
+  Json all = rounded(place.position_m);
+  all.push_back(rounded(place.yaw_rad));
+  return all;
+}
+
+Json scene_json(const FlightScene& scene) {
+  Json all;
+  for (const Eigen::Vector3d& corner : scene.target_m) all["target"].push_back(rounded(corner));
+  all["goal"] = rounded(scene.goal);
+  all["vehicle"] = scene.vehicle ? rounded(*scene.vehicle) : Json();
+  if (!scene.vehicle) return all;
+  for (const Eigen::Vector3d& direction : scene.sight) all["sight"].push_back(rounded(direction));
+  return all;
+}
+
+Json attitude_json(const std::optional<Attitude>& attitude) {
+  if (!attitude) return {};
+  return {rounded(attitude->roll), rounded(attitude->pitch), rounded(attitude->yaw)};
+}
+
 Json numbers(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
 
 void add_track(Json& to, const LogRow& row) {
@@ -74,6 +97,8 @@ GroundView ground_view(const Frame& frame, const Step& step, const Template& mod
   if (step.pose) {
     view.seen = levelled(step.pose->camera_from_target, frame.attitude, task.body_from_camera);
   }
+  view.scene = flight_scene(task, view.seen, frame.attitude);
+  if (frame.attitude) view.horizon = horizon(task.camera, task.body_from_camera, *frame.attitude);
   view.chain_ms = chain_ms;
   return view;
 }
@@ -88,6 +113,9 @@ std::string json(const GroundView& view) {
   all["inliers"] = pairs(view.inliers);
   add_decision(all, view.row);
   all["chain_ms"] = rounded(view.chain_ms);
+  all["attitude"] = attitude_json(view.row.attitude);
+  all["horizon"] = pairs_or_null(view.horizon);
+  all["scene"] = scene_json(view.scene);
   all["distance_m"] = view.seen ? Json(view.seen->translation.norm()) : Json();
   return all.dump();
 }

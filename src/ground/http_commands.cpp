@@ -59,7 +59,7 @@ bool admits_origin(Shared& shared, const Request& request, Response& response) {
   return true;
 }
 
-/// The commands of all pages together, stops apart, are so many a second and no more.
+/// The commands of all pages together, stops and sticks apart, are so many a second and no more.
 class CommandRate {
  public:
   explicit CommandRate(double per_s) : bucket_({per_s, 2 * per_s}) {}
@@ -73,7 +73,17 @@ class CommandRate {
   TokenBucket bucket_;
 };
 
-void take_command(Shared& shared, CommandRate& rate, const Request& request, Response& response) {
+/// One hand holds the sticks, and tells where they are twelve times a second.
+constexpr double kSticks_per_s = 25;
+
+struct Rates {
+  explicit Rates(double commands_per_s) : commands(commands_per_s) {}
+  CommandRate commands;
+  CommandRate sticks{kSticks_per_s};
+  CommandRate& of(Ask ask) { return ask == Ask::Sticks ? sticks : commands; }
+};
+
+void take_command(Shared& shared, Rates& rates, const Request& request, Response& response) {
   if (!admits_origin(shared, request, response) || !lets_in(shared, request, response)) return;
   const auto parsed = parse_command(request.body);
   if (const auto* why = std::get_if<std::string>(&parsed)) {
@@ -82,7 +92,7 @@ void take_command(Shared& shared, CommandRate& rate, const Request& request, Res
   }
   const auto& command = std::get<GroundCommand>(parsed);
   const double now_s = shared.now_s();
-  if (!is_stop(command.ask) && !rate.takes(now_s)) {
+  if (!is_stop(command.ask) && !rates.of(command.ask).takes(now_s)) {
     ++shared.refusals.too_many;
     return say(response, 429, "too many commands; wait a second");
   }
@@ -104,14 +114,14 @@ void take_preflight(Shared& shared, const Request& request, Response& response) 
 }  // namespace
 
 void serve_commands(httplib::Server& server, Shared& shared) {
-  const auto rate = std::make_shared<CommandRate>(shared.options.commands_per_s);
+  const auto rates = std::make_shared<Rates>(shared.options.commands_per_s);
   server.set_default_headers(
       {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}});
   server.Options("/command", [&shared](const Request& request, Response& response) {
     take_preflight(shared, request, response);
   });
-  server.Post("/command", [&shared, rate](const Request& request, Response& response) {
-    take_command(shared, *rate, request, response);
+  server.Post("/command", [&shared, rates](const Request& request, Response& response) {
+    take_command(shared, *rates, request, response);
   });
 }
 

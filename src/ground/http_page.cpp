@@ -39,6 +39,10 @@ void give_html(Shared& shared, const Request& request, Response& response) {
   response.set_content(html_with_port(shared.command_port), "text/html; charset=utf-8");
 }
 
+Json velocities(const VelocityCommand& v) {
+  return {v.forward_m_s, v.right_m_s, v.down_m_s, v.yaw_rate_rad_s};
+}
+
 /// A place among the viewers, given back where it ends.
 class Seat {
  public:
@@ -87,7 +91,10 @@ void give_stream(Shared& shared, const Request& request, Response& response) {
 
 std::string desk_json(const Shared& shared) {
   const DeskStatus s = shared.desk.status();
-  const Eigen::Vector4d speed = s.limits.speed.vector();
+  Json facts = Json::array();
+  if (shared.facts) {
+    for (const Fact& fact : shared.facts()) facts.push_back({fact.name, fact.words});
+  }
   Json events = Json::array();
   for (const GroundEvent& e : s.events) {
     events.push_back({{"number", e.number}, {"stamp_s", e.stamp_s}, {"words", e.words}});
@@ -99,7 +106,12 @@ std::string desk_json(const Shared& shared) {
               {"asker", s.asker},
               {"gain_per_s", s.gain_per_s},
               {"most_gain_per_s", s.most_gain_per_s},
-              {"speed", std::vector<double>(speed.begin(), speed.end())},
+              {"speed", velocities(s.limits.speed)},
+              {"most_speed", velocities(s.most_speed)},
+              {"law", s.law},
+              {"laws", s.laws},
+              {"sent", {s.sent.commands, s.sent.zeros, s.failures}},
+              {"facts", facts},
               {"events", events},
               {"viewers", shared.viewers.load()},
               {"refused", refused}}

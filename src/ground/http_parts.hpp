@@ -55,6 +55,7 @@ struct Shared {
   const GroundOptions options;
   const AccessToken token;
   const GroundStation::Clock now_s;
+  const Facts facts;
   GroundDesk desk;
   RefusalCounts refusals;
   EncodedFrames frames;
@@ -75,7 +76,8 @@ void serve_page(httplib::Server& server, Shared& shared);
 /// Commands.
 void serve_commands(httplib::Server& server, Shared& shared);
 
-/// How the desk stands, JSON: mode, commander, asker, gain_per_s, most_gain_per_s, speed, events,
+/// How the desk stands, JSON: mode, commander, asker, gain_per_s, most_gain_per_s, speed,
+/// most_speed, law, laws, sent (commands, zeros, failures), facts (pairs of words), events,
 /// viewers, refused.
 std::string desk_json(const Shared& shared);
 

@@ -7,10 +7,11 @@ namespace kestrel {
 /// The page (src/ground/page/ground.html); {{COMMAND_PORT}} stands for the port of the commands.
 std::string_view ground_html();
 
-/// Its style sheet (ground.css).
+/// Its style sheet (ground.css, controls.css).
 std::string_view ground_css();
 
-/// Its script (stream.js, picture.js, plots.js, commands.js, page.js, in one).
+/// Its script (stream.js, picture.js, plots.js, commands.js, sticks.js, settings.js,
+/// views.js, page.js, in one).
 std::string_view ground_script();
 
 }  // namespace kestrel

@@ -86,6 +86,48 @@ void Browser::drag(int x0, int y0, int x1, int y1) {
   call("/actions", Json{{"actions", Json::array({hand})}}.dump());
 }
 
+void Browser::act(const std::string& actions) {
+  call("/actions", "{\"actions\":[" + actions + "]}");
+}
+
+void Browser::press(int x, int y) {
+  const Json moves{pointer("pointerMove", x, y), {{"type", "pointerDown"}, {"button", 0}}};
+  act(Json{{"type", "pointer"}, {"id", "hand"}, {"actions", moves}}.dump());
+}
+
+void Browser::slide(int x, int y) {
+  const Json moves = Json::array({pointer("pointerMove", x, y)});
+  act(Json{{"type", "pointer"}, {"id", "hand"}, {"actions", moves}}.dump());
+}
+
+void Browser::let_go() {
+  const Json moves = Json::array({Json{{"type", "pointerUp"}, {"button", 0}}});
+  act(Json{{"type", "pointer"}, {"id", "hand"}, {"actions", moves}}.dump());
+}
+
+void Browser::key_down(const std::string& key) {
+  const Json moves = Json::array({Json{{"type", "keyDown"}, {"value", key}}});
+  act(Json{{"type", "key"}, {"id", "keyboard"}, {"actions", moves}}.dump());
+}
+
+void Browser::key_up(const std::string& key) {
+  const Json moves = Json::array({Json{{"type", "keyUp"}, {"value", key}}});
+  act(Json{{"type", "key"}, {"id", "keyboard"}, {"actions", moves}}.dump());
+}
+
+void Browser::screen(int width, int height) {
+  const Json size{{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", true}};
+  call("/goog/cdp/execute",
+       Json{{"cmd", "Emulation.setDeviceMetricsOverride"}, {"params", size}}.dump());
+}
+
+void Browser::crash() {
+  try {
+    call("/goog/cdp/execute", Json{{"cmd", "Browser.crash"}, {"params", Json::object()}}.dump());
+  } catch (const std::runtime_error&) {  // nobody is left to answer
+  }
+}
+
 std::string Browser::screenshot() { return Json::parse(call("/screenshot", "")); }
 
 }  // namespace kestrel::test

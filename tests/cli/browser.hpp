@@ -28,10 +28,22 @@ class Browser {
   std::string text(const std::string& id);
   /// Drags the pointer between two places of the window, px.
   void drag(int x0, int y0, int x1, int y1);
+  /// Puts a hand on a place of the window and keeps it there, px; then slides it; then lets go.
+  void press(int x, int y);
+  void slide(int x, int y);
+  void let_go();
+  /// A key of the keyboard, down or up: a letter, or a code of WebDriver's for others.
+  void key_down(const std::string& key);
+  void key_up(const std::string& key);
+  /// Gives the page a screen of this size, px: a telephone's where it is narrow.
+  void screen(int width, int height);
+  /// Ends the browser as a power cut does: its pages are told nothing.
+  void crash();
   /// A PNG in base64.
   std::string screenshot();
 
  private:
+  void act(const std::string& actions);
   std::string call(const std::string& path, const std::string& body);
 
   int port_;

@@ -47,6 +47,17 @@ TEST(CommandGate, ClosingSendsZeroAtOnceAndItStaysSo) {
   EXPECT_TRUE(written.all[2].first.vector().isZero(0));
 }
 
+TEST(CommandGate, CountsWhatWentThrough) {
+  Written written;
+  CommandGate gate(written);
+  gate.send(kForward, 1);  // closed: a zero
+  gate.open();
+  gate.send(kForward, 2);
+  gate.close();
+  EXPECT_EQ(gate.counts().commands, 3);
+  EXPECT_EQ(gate.counts().zeros, 2);
+}
+
 TEST(CommandGate, NothingIsSentBeforeTheFirstFrame) {
   Written written;
   CommandGate gate(written);

@@ -7,11 +7,11 @@
 namespace kestrel {
 namespace {
 
-constexpr std::array<FlightMode, 3> kModes{FlightMode::Hover, FlightMode::Servo,
+constexpr std::array<FlightMode, 4> kModes{FlightMode::Hover, FlightMode::Servo, FlightMode::Sticks,
                                            FlightMode::Aborted};
 
 TEST(FlightMode, OnlyStartLeadsToServo) {
-  for (const FlightMode mode : {FlightMode::Hover, FlightMode::Aborted}) {
+  for (const FlightMode mode : {FlightMode::Hover, FlightMode::Sticks, FlightMode::Aborted}) {
     for (const Ask ask : kAsks) {
       const bool servos = changed(mode, ask).mode == FlightMode::Servo;
       EXPECT_EQ(servos, mode == FlightMode::Hover && ask == Ask::Start)
@@ -33,6 +33,20 @@ TEST(FlightMode, AbortIsAlwaysTakenAndOnlyResetEndsIt) {
   EXPECT_EQ(changed(FlightMode::Aborted, Ask::Start).answer.kind, Answer::Kind::Refused);
 }
 
+TEST(FlightMode, OnlyGripLeadsToTheSticksAndNotFromAnAbort) {
+  for (const FlightMode mode : kModes) {
+    for (const Ask ask : kAsks) {
+      const bool by_hand = changed(mode, ask).mode == FlightMode::Sticks;
+      const bool stays = mode == FlightMode::Sticks && !is_stop(ask);
+      EXPECT_EQ(by_hand, stays || (mode != FlightMode::Aborted && ask == Ask::Grip))
+          << name(mode) << ' ' << name(ask);
+    }
+  }
+  EXPECT_EQ(changed(FlightMode::Aborted, Ask::Grip).answer.kind, Answer::Kind::Refused);
+  EXPECT_EQ(changed(FlightMode::Sticks, Ask::Start).answer.kind, Answer::Kind::Refused);
+  EXPECT_EQ(changed(FlightMode::Sticks, Ask::Hover).mode, FlightMode::Hover);
+}
+
 TEST(FlightMode, HoverStopsTheServo) {
   EXPECT_EQ(changed(FlightMode::Servo, Ask::Hover).mode, FlightMode::Hover);
   EXPECT_EQ(changed(FlightMode::Servo, Ask::Hover).answer.kind, Answer::Kind::Done);
@@ -42,6 +56,7 @@ TEST(FlightMode, HoverStopsTheServo) {
 TEST(FlightMode, HasAWordForEach) {
   EXPECT_STREQ(name(FlightMode::Hover), "hover");
   EXPECT_STREQ(name(FlightMode::Servo), "servo");
+  EXPECT_STREQ(name(FlightMode::Sticks), "sticks");
   EXPECT_STREQ(name(FlightMode::Aborted), "aborted");
 }
 

@@ -27,6 +27,9 @@ TEST(GroundCommand, EveryWordIsKnownByItsName) {
     if (ask == Ask::Freeze) more = ",\"frame\":12";
     if (ask == Ask::Examine) more = ",\"box\":[1,2,30,40]";
     if (ask == Ask::Use) more = ",\"width_m\":1.5";
+    if (ask == Ask::Sticks || ask == Ask::Limits) more = ",\"velocity\":[1,2,3,0.5]";
+    if (ask == Ask::Law) more = ",\"law\":\"mean\"";
+    if (ask == Ask::Goal) more = ",\"position_m\":[-5,0,1],\"yaw_rad\":0.1";
     const GroundCommand c = good(std::string("{\"do\":\"") + name(ask) +
                                  "\",\"client\":\"a-1\",\"number\":7" + more + "}");
     EXPECT_EQ(c.ask, ask);
@@ -36,6 +39,9 @@ TEST(GroundCommand, EveryWordIsKnownByItsName) {
     EXPECT_EQ(c.frame.has_value(), ask == Ask::Freeze);
     EXPECT_EQ(c.box.has_value(), ask == Ask::Examine);
     EXPECT_EQ(c.width_m.has_value(), ask == Ask::Use);
+    EXPECT_EQ(c.velocity.has_value(), ask == Ask::Sticks || ask == Ask::Limits);
+    EXPECT_EQ(c.law.has_value(), ask == Ask::Law);
+    EXPECT_EQ(c.goal.has_value(), ask == Ask::Goal);
   }
 }
 
@@ -47,6 +53,30 @@ TEST(GroundCommand, NumbersComeThrough) {
   EXPECT_EQ(box.v, 2);
   EXPECT_EQ(box.width, 30);
   EXPECT_EQ(box.height, 40);
+}
+
+TEST(GroundCommand, VelocitiesLawAndGoalComeThrough) {
+  const auto sticks = *good(R"({"do":"sticks","velocity":[-0.5,0.25,0,-0.1]})").velocity;
+  EXPECT_EQ(sticks.vector(), Eigen::Vector4d(-0.5, 0.25, 0, -0.1));
+  EXPECT_EQ(good(R"({"do":"law","law":"2.5d"})").law, "2.5d");
+  const auto goal = *good(R"({"do":"goal","position_m":[-5,0.5,-1],"yaw_rad":0.2})").goal;
+  EXPECT_EQ(goal.position_m, Eigen::Vector3d(-5, 0.5, -1));
+  EXPECT_EQ(goal.yaw_rad, 0.2);
+}
+
+TEST(GroundCommand, SticksAndGoalsOutOfRangeAreRefused) {
+  for (const char* bad : {"[1,2,3]", "[1,2,3,4,5]", "[1,2,3,NaN]", "[1,2,3,null]", "[1,2,3,1e999]",
+                          "[1e7,0,0,0]", "[\"1\",0,0,0]", "{}", "1"}) {
+    EXPECT_NE(refusal(std::string(R"({"do":"sticks","velocity":)") + bad + "}"), "taken") << bad;
+  }
+  for (const char* bad : {"[0,1,1,1]", "[1,1,1,-1]"}) {
+    EXPECT_NE(refusal(std::string(R"({"do":"limits","velocity":)") + bad + "}"), "taken") << bad;
+  }
+  EXPECT_NE(refusal(R"({"do":"goal","position_m":[1,2],"yaw_rad":0})"), "taken");
+  EXPECT_NE(refusal(R"({"do":"goal","position_m":[1,2,3]})"), "taken");
+  EXPECT_NE(refusal(R"({"do":"goal","position_m":[1,2,3],"yaw_rad":1e9})"), "taken");
+  EXPECT_NE(refusal(R"({"do":"law","law":7})"), "taken");
+  EXPECT_NE(refusal(R"({"do":"law","law":")" + std::string(65, 'a') + "\"}"), "taken");
 }
 
 TEST(GroundCommand, AStopNeedsNothingButItsWord) {

@@ -112,6 +112,26 @@ TEST_F(Station, AFloodOfCommandsIsRefusedButNotAStop) {
   EXPECT_EQ(client_.post(R"({"do":"abort"})").status, 200);
 }
 
+TEST_F(Station, AFloodOfCommandsHoldsNoHandBackNorDoesAHandFlood) {
+  const std::string name = client_.join();
+  std::uint64_t number = 0;
+  const auto give = [&](const std::string& word, const std::string& more) {
+    const std::string body = R"({"do":")" + word + R"(","client":")" + name + R"(","number":)" +
+                             std::to_string(++number) + more + '}';
+    return client_.post(body).status;
+  };
+  EXPECT_EQ(give("take", ""), 200);
+  EXPECT_EQ(give("sticks", R"(,"velocity":[1,0,0,0])"), 409) << "nobody holds them";
+  EXPECT_EQ(give("grip", ""), 200);
+  for (int i = 0; i < 60; ++i) client_.post(R"({"do":"join"})");
+  EXPECT_EQ(give("alive", ""), 429);
+  int refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    refused += give("sticks", R"(,"velocity":[1,0,0,0])") == 429 ? 1 : 0;
+  }
+  EXPECT_EQ(refused, 11) << "the clock stands still: a burst of 50, of which one was spent above";
+}
+
 TEST_F(Station, APictureComesWithItsOwnNumbers) {
   int seen = 0;
   const auto look = [&](const StreamFrame& frame) {

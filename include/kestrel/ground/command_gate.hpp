@@ -6,6 +6,12 @@
 
 namespace kestrel {
 
+/// What went through a gate to its sink.
+struct GateCounts {
+  long commands = 0;
+  long zeros = 0;  // of these, exact zeros
+};
+
 /// A gate before a sink. Closed, every command that comes is sent on as hover; closing it sends
 /// hover at once, from whatever thread, and does not wait for the next frame. Starts closed.
 class CommandGate final : public CommandSink {
@@ -20,13 +26,17 @@ class CommandGate final : public CommandSink {
   void close() noexcept;
   void open() noexcept;
   bool is_open() const;
+  GateCounts counts() const;
 
  private:
+  void pass(const VelocityCommand& command) noexcept;
+
   CommandSink& behind_;
   mutable std::mutex mutex_;
   bool is_open_ = false;
   bool has_sent_ = false;
   double stamp_s_ = 0;  // of the last command
+  GateCounts counts_;
 };
 
 }  // namespace kestrel

@@ -8,10 +8,11 @@ namespace kestrel {
 enum class FlightMode {
   Hover,    // zero velocity, until the commander starts
   Servo,    // what the chain decides
+  Sticks,   // what the commander's hand asks for, as long as it holds the sticks; then hover
   Aborted,  // zero velocity, until the commander resets, and then hover
 };
 
-/// "hover", "servo", "aborted".
+/// "hover", "servo", "sticks", "aborted".
 const char* name(FlightMode mode);
 
 /// The mode after a command, and what to tell who gave it.
@@ -20,8 +21,9 @@ struct ModeChange {
   Answer answer;
 };
 
-/// What Abort, Hover, Reset and Start make of a mode; all else leaves it. Doubt means hover: no
-/// command but Start leads to Servo, and Abort is left by Reset only.
+/// What Abort, Hover, Reset, Start and Grip make of a mode; all else leaves it. Doubt means hover:
+/// no command but Start leads to Servo, from hover only, none but Grip to Sticks, and Abort is left
+/// by Reset only.
 ModeChange changed(FlightMode mode, Ask ask);
 
 }  // namespace kestrel

@@ -8,6 +8,8 @@
 #include <variant>
 
 #include "kestrel/geometry/pixel.hpp"
+#include "kestrel/ground/flight_scene.hpp"
+#include "kestrel/vehicle/velocity_command.hpp"
 
 namespace kestrel {
 
@@ -26,11 +28,17 @@ enum class Ask {
   Freeze,    // "freeze": keep the picture of `frame` to choose a template in
   Examine,   // "examine": how good a template is `box` of the frozen picture
   Use,       // "use": the template examined last, `width_m` wide
+  Grip,      // "grip": take the sticks; zero velocity until they are moved
+  Sticks,    // "sticks": where the sticks are, ten times a second or more: `velocity`
+  Law,       // "law": servo by `law`
+  Limits,    // "limits": the largest velocities, `velocity`
+  Goal,      // "goal": the vehicle is to be at `goal`
 };
 
-inline constexpr std::array<Ask, 13> kAsks{
-    Ask::Abort, Ask::Hover,    Ask::Join, Ask::Take,   Ask::Release, Ask::Alive, Ask::Start,
-    Ask::Reset, Ask::HoldView, Ask::Gain, Ask::Freeze, Ask::Examine, Ask::Use};
+inline constexpr std::array<Ask, 18> kAsks{
+    Ask::Abort, Ask::Hover, Ask::Join,     Ask::Take, Ask::Release, Ask::Alive,
+    Ask::Start, Ask::Reset, Ask::HoldView, Ask::Gain, Ask::Freeze,  Ask::Examine,
+    Ask::Use,   Ask::Grip,  Ask::Sticks,   Ask::Law,  Ask::Limits,  Ask::Goal};
 
 /// The word in quotes above.
 const char* name(Ask ask);
@@ -47,12 +55,17 @@ struct GroundCommand {
   std::optional<std::int64_t> frame;
   std::optional<PixelBox> box;  // whole pixels
   std::optional<double> width_m;
+  std::optional<VelocityCommand> velocity;  // of the limits: all positive
+  std::optional<std::string> law;
+  std::optional<VehiclePlace> goal;
 };
 
 /// The longest command, bytes.
 constexpr std::size_t kMaxCommandBytes = 2048;
 
-/// The command in a JSON object {"do": word, "client": text, "number": count, ...}, or in one
+/// The command in a JSON object {"do": word, "client": text, "number": count, ...}: velocity is
+/// [forward, right, down, yaw rate] in m/s and rad/s, the goal "position_m": [forward, right, down]
+/// and "yaw_rad" of a VehiclePlace. Or in one
 /// sentence why there is none: too long, no JSON, an unknown key or word, a number that is missing,
 /// not finite or out of range. Never throws.
 std::variant<GroundCommand, std::string> parse_command(std::string_view json);

@@ -11,6 +11,7 @@
 #include "kestrel/ground/command_post.hpp"
 #include "kestrel/ground/flight_mode.hpp"
 #include "kestrel/ground/ground_view.hpp"
+#include "kestrel/ground/hand_flight.hpp"
 #include "kestrel/ground/template_verdict.hpp"
 #include "kestrel/loop/task.hpp"
 #include "kestrel/vision/tracker.hpp"
@@ -46,6 +47,11 @@ struct DeskStatus {
   double gain_per_s = 0;
   double most_gain_per_s = 0;
   CommandLimits limits;
+  VelocityCommand most_speed;  // the task's own
+  std::string law;
+  std::vector<std::string> laws;  // that may be asked for
+  GateCounts sent;
+  long failures = 0;                // of the sink: commands that did not leave
   std::vector<GroundEvent> events;  // the last kEvents, oldest first
 };
 
@@ -55,21 +61,28 @@ struct DeskStatus {
 ///
 /// The chain starts in hover. Abort and hover are anybody's at any time; all else is the
 /// commander's, one at a time. A commander who falls silent loses the command; the chain goes on.
+/// Sticks that are not heard of, or whose hand loses the command, are let go: hover.
 class GroundDesk {
  public:
   static constexpr std::size_t kEvents = 50;
   /// Frames of which one can be frozen: a second of them, since a viewer is behind.
   static constexpr std::size_t kKeptViews = 30;
 
-  /// run: see CommandPost. The task's gain is the most that can be asked for. The gate is opened by
-  /// start and closed by abort and hover, at once; it must outlive the desk.
+  /// run: see CommandPost. The task's gain and velocities are the most that can be asked for, and
+  /// its laws those that have an answer at its goal. The gate is opened by start and by taking the
+  /// sticks, closed by abort and hover, at once; it must outlive the desk.
   GroundDesk(const Task& task, CommandGate& gate, const std::string& run);
 
   /// Answers a command and does what it asks for, now or with the next frame.
   Reply handle(const GroundCommand& command, double now_s);
 
-  /// Takes the command from a commander who has fallen silent.
+  /// Takes the command from a commander who has fallen silent, and lets go of sticks that nobody
+  /// holds: to be called as often as that is to be noticed.
   void look_after(double now_s);
+
+  /// The decision of a frame as it may be flown: the law's, a hand's, or none. before: the chain's
+  /// state at that frame.
+  Decision steered(Decision decision, const DecisionState& before, double now_s) const;
 
   void show(std::shared_ptr<const GroundView> view);
 
@@ -89,6 +102,12 @@ class GroundDesk {
 
   Answer stop_or_start(Ask ask);
   Reply obey(const GroundCommand& command, double now_s, Lock& lock);
+  Reply done_for_commander(const GroundCommand& command, double now_s, Lock& lock);
+  Answer move_sticks(const VelocityCommand& wanted, double now_s);
+  void notice_silence(double now_s);
+  Answer set_law(const std::string& word);
+  Answer set_limits(const VelocityCommand& speed);
+  Answer set_goal(const VehiclePlace& place);
   Answer set_gain(double gain_per_s);
   Answer hold_view();
   Answer freeze(std::int64_t frame);
@@ -101,9 +120,12 @@ class GroundDesk {
   mutable std::mutex mutex_;
   Task task_;
   const double most_gain_per_s_;
+  const VelocityCommand most_speed_;
+  const std::vector<std::string> laws_;
   CommandGate& gate_;
   CommandPost post_;
   FlightMode mode_ = FlightMode::Hover;
+  HeldSticks sticks_;
   std::deque<std::shared_ptr<const GroundView>> views_;
   std::shared_ptr<const GroundView> frozen_;
   std::optional<Candidate> candidate_;
@@ -111,9 +133,5 @@ class GroundDesk {
   std::deque<GroundEvent> events_;
   std::uint64_t told_ = 0;
 };
-
-/// The decision of a chain that may not move: exact zeros, and nothing remembered that could be
-/// resumed. What the law wants is kept, to be looked at.
-Decision stopped(Decision decision);
 
 }  // namespace kestrel

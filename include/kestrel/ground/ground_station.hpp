@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kestrel/ground/access_token.hpp"
 #include "kestrel/ground/command_gate.hpp"
@@ -37,6 +38,15 @@ struct GroundRefusals {
   long stale = 0;      // replayed
 };
 
+/// Something that is known of the vehicle or of the way to it, for a human.
+struct Fact {
+  std::string name;   // "battery"
+  std::string words;  // "12.4 V"
+};
+
+/// What is known now; called by several threads, some ten times a second.
+using Facts = std::function<std::vector<Fact>()>;
+
 /// The ground station: a page in the browser that shows what the chain sees and takes commands to
 /// GroundDesk. Its threads wait for viewers; the loop never does: it hands over a frame by a swap
 /// of pointers, and each viewer is sent the newest when it has taken the one before.
@@ -49,9 +59,9 @@ class GroundStation {
   using Clock = std::function<double()>;
 
   /// Listens when this returns. Throws std::runtime_error when a port is taken, naming it. The gate
-  /// must outlive the station.
+  /// must outlive the station, and what facts looks at; null: nothing is known.
   GroundStation(const GroundOptions& options, const AccessToken& token, const Task& task,
-                CommandGate& gate, Clock now_s);
+                CommandGate& gate, Clock now_s, Facts facts = nullptr);
   ~GroundStation();
   GroundStation(const GroundStation&) = delete;
   GroundStation& operator=(const GroundStation&) = delete;
@@ -64,6 +74,9 @@ class GroundStation {
 
   GroundDesk& desk();
   GroundRefusals refusals() const;
+
+  /// See GroundDesk: what of a frame's decision may be flown now.
+  Decision steered(Decision decision, const DecisionState& before) const;
 
   /// Hands a frame to the viewers: a swap of pointers.
   void show(GroundView view);

@@ -7,6 +7,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "kestrel/ground/flight_scene.hpp"
 #include "kestrel/io/run_log.hpp"
 #include "kestrel/loop/step.hpp"
 
@@ -19,7 +20,9 @@ struct GroundView {
   std::array<Pixel, 4> goal_corners{};  // of the target, where the goal wants them, px
   std::vector<Pixel> inliers;           // places of the keypoints that agree, px
   std::optional<TargetPose> seen;       // camera_from_target, the camera levelled; when seen
-  double chain_ms = 0;                  // from the frame to the command
+  FlightScene scene{};
+  std::optional<std::array<Pixel, 2>> horizon;  // in the picture; with an attitude
+  double chain_ms = 0;                          // from the frame to the command
 };
 
 /// Copies the picture; encodes nothing.
@@ -33,7 +36,9 @@ TargetPose levelled(const TargetPose& camera_from_target, const std::optional<At
 
 /// A viewer's words of the frame, a JSON object: frame, stamp_s, size_px, status, miss, confidence,
 /// corners, predicted, window, goal, inliers, state, errors, error_norm, condition, twist, wanted,
-/// sent, chain_ms, distance_m. Pixels are pairs; null for what is not known.
+/// sent, chain_ms, distance_m, attitude (roll, pitch, yaw), horizon, scene (target, goal, vehicle,
+/// sight; see FlightScene, a place being forward, right, down, yaw). Pixels are pairs; null for
+/// what is not known.
 std::string json(const GroundView& view);
 
 }  // namespace kestrel

@@ -2,17 +2,19 @@
 const Commands = (() => {
   const port = document.querySelector('meta[name="command-port"]').content;
   const address = `${location.protocol}//${location.hostname}:${port}/command`;
-  let token = "", client = "", number = 0;
+  let token = "", client = "", number = 0, took_ms = null;
 
   async function post(command) {
     const asked = performance.now();
-    const answer = await fetch(address, {
+    // A stop is sent to its end also when the page is closed meanwhile.
+    const answer = await fetch(address, { keepalive: command.do === "hover" || command.do === "abort",
       method: "POST", cache: "no-store", signal: AbortSignal.timeout(5000),
       headers: { Authorization: "Bearer " + token, "Content-Type": "application/json" },
       body: JSON.stringify(command),
     });
     const reply = await answer.json();
-    return { ...reply, status: answer.status, took_ms: performance.now() - asked };
+    took_ms = performance.now() - asked;
+    return { ...reply, status: answer.status, took_ms };
   }
   async function join() {
     const reply = await post({ do: "join" });
@@ -35,5 +37,6 @@ const Commands = (() => {
     give,
     enter(nextToken) { token = nextToken; client = ""; },
     client: () => client,
+    took_ms: () => took_ms,  // the last command and its answer
   };
 })();

@@ -7,11 +7,12 @@ const plots = {
   condition: new Plot("plot_condition", ["condition"]),
   time: new Plot("plot_time", ["chain", "behind"]),
 };
-let token = "", desk = null, frozen = null, lastPicture_ms = 0, told = 0, drag = null, alive = null;
+let token = "", desk = null, frozen = null, lastPicture_ms = 0, lastWord_ms = 0, told = 0, drag = null, alive = null;
 
 // ---- what the program says
 
-const kMode = { hover: ["Hover: zero velocity", "so"], servo: ["Servoing", "ok"], aborted: ["ABORTED: zero velocity", "bad"] };
+const kMode = { hover: ["Hover: zero velocity", "so"], servo: ["Servoing", "ok"], sticks: ["By hand", "so"],
+  aborted: ["ABORTED: zero velocity", "bad"] };
 
 function showDesk(next) {
   desk = next;
@@ -27,6 +28,11 @@ function showDesk(next) {
   for (const id of ["hold_view", "gain", "freeze"]) at(id).disabled = !mine;
   at("gain_shown").textContent = `${desk.gain_per_s.toPrecision(2)} of ${desk.most_gain_per_s.toPrecision(2)} 1/s`;
   if (document.activeElement !== at("gain")) at("gain").value = 100 * desk.gain_per_s / desk.most_gain_per_s;
+  if (desk.laws && !desk.view_only) {
+    Sticks.follow(desk);
+    Settings.show(desk, mine);
+  }
+  if (desk.sent) Views.showLink(desk);
   showEvents();
 }
 
@@ -38,6 +44,8 @@ function badge(id, words, colour) {
 }
 
 function showEvents() {
+  const newest = desk.events.length ? desk.events[desk.events.length - 1].number : 0;
+  if (newest < told) told = 0;  // the program was started anew
   for (const event of desk.events) {
     if (event.number <= told) continue;
     told = event.number;
@@ -67,7 +75,7 @@ function showNumbers(view, words) {
     "Distance": view.distance_m === null ? "–" : view.distance_m.toFixed(2) + " m",
     "Command rests on": view.state || "–",
     "Sent": v(view.sent) + "  m/s, rad/s",
-    "Wanted": v(view.wanted),
+    "The law wants": v(view.wanted),
     "Most allowed": v(desk.speed),
     "Error": view.error_norm === null ? "–" : view.error_norm.toFixed(4),
     "Condition": view.condition === null ? "–" : view.condition.toFixed(0),
@@ -86,6 +94,7 @@ function showNumbers(view, words) {
 }
 
 async function showFrame({ words, jpeg }) {
+  lastWord_ms = performance.now();
   showDesk(words.desk);
   if (!words.view) {
     at("line").textContent = `no new picture for ${((performance.now() - lastPicture_ms) / 1000).toFixed(0)} s`;
@@ -98,6 +107,10 @@ async function showFrame({ words, jpeg }) {
     Picture.show(await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" })), view);
   }
   showSight(view);
+  if (view.scene) {
+    Views.show(view);
+    Settings.showScene(view.scene);
+  }
   showNumbers(view, words);
   plots.errors.add(view.stamp_s, view.errors && [view.error_norm, ...view.errors]);
   plots.twist.add(view.stamp_s, view.twist);
@@ -184,7 +197,7 @@ async function examine() {
 
 async function use() {
   const reply = await give("use", { width_m: Number(at("width_m").value) });
-  if (reply.done) { Picture.forget(); goLive(); }
+  if (reply.done) { Picture.forget(); Views.forget(); goLive(); }
 }
 
 function cornersToRectangle(a, b) {
@@ -215,7 +228,7 @@ async function onUp(event) {
 // ---- wiring
 
 const kKeys = { Escape: () => give("abort"), h: () => give("hover"), s: () => at("start").click(),
-  v: () => at("hold_view").click(), c: () => at("take").click(), f: () => at("freeze").click() };
+  v: () => at("hold_view").click(), c: () => at("take").click(), f: () => at("freeze").click(), g: () => at("dead_man").focus() };
 
 function wire() {
   const on = (id, action) => at(id).addEventListener("click", action);
@@ -237,16 +250,31 @@ function wire() {
   Picture.canvas.addEventListener("pointerup", onUp);
   document.addEventListener("keydown", event => {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    const writes = /^(text|password|number)$/.test(event.target.type || "") && key !== "Escape";
+    const writes = /^(text|password|number|select-one)$/.test(event.target.type || "") && key !== "Escape";
+    if (!writes && Sticks.takes(event)) return event.preventDefault();
     if (!kKeys[key] || writes || event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     kKeys[key]();
   });
-  setInterval(() => { for (const plot of Object.values(plots)) plot.draw(); }, 200);
+  setInterval(() => { for (const plot of Object.values(plots)) plot.draw(); Views.draw(); }, 200);
+  setInterval(watchLine, 500);
+  const parts = { give, say, commanding, desk: () => desk };
+  Sticks.wire(parts);
+  Settings.wire(parts);
   at("entry").addEventListener("submit", event => {
     event.preventDefault();
     enter(at("token").value.trim());
   });
+}
+
+// A line that is cut without a word: what is shown is old, and nobody flies by hand what he does not see.
+function watchLine() {
+  const silent_ms = performance.now() - lastWord_ms;
+  if (lastWord_ms === 0 || silent_ms < 2500) return;
+  Sticks.letAllGo();
+  badge("mode", "no connection", "bad");
+  badge("sight", "nothing known", "bad");
+  at("line").textContent = `no word from the program for ${(silent_ms / 1000).toFixed(0)} s`;
 }
 
 function askToken() {
@@ -267,6 +295,7 @@ async function enter(next) {
       await readStream(token, showFrame);
     } catch (error) {
       if (error.message === "token") { sessionStorage.removeItem("token"); return askToken(); }
+      Sticks.letAllGo();
       badge("mode", "no connection", "bad");
       badge("sight", "nothing known", "bad");
       at("line").textContent = `${error.message}; trying again`;

@@ -47,6 +47,10 @@ const Picture = (() => {
     const w = view.window;
     if (w[2] > 0) { to.beginPath(); to.rect(w[0], w[1], w[2], w[3]); to.lineWidth = 3;
       to.strokeStyle = "rgba(255,255,255,.7)"; to.stroke(); to.lineWidth = 1.5; to.strokeStyle = "#000"; to.stroke(); }
+    if (view.horizon) {
+      to.beginPath(); to.moveTo(...view.horizon[0]); to.lineTo(...view.horizon[1]);
+      stroke("#f4f6f8", 1, [14, 8]);
+    }
     dots(view.inliers, "#58a6ff", 2);
     path(view.goal, "#ff5d52", 2, [8, 4]);
     dots(view.goal, "#ff5d52", 5);
