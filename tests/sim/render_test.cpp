@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "kestrel/sim/texture.hpp"
 
@@ -236,6 +237,35 @@ TEST(Render, FilledTilesAreWhatBlendingMakesOfThem) {
     // One footprint stands for 16 rows instead of for one: a few levels in few pixels.
     EXPECT_LE(cv::norm(difference, cv::NORM_INF), 6);
     EXPECT_LT(cv::mean(difference)[0], 0.1);
+  }
+}
+
+// Motion of about a pixel is taken as a spread of each pixel: what it does to the picture must be
+// what the mean of the views does, to a small part.
+TEST(Render, MotionOfAPixelBlursAsTheMeanOfItsViews) {
+  const Renderer renderer(on_wall(poster(160, 120, 3), 2, 1.5, 128), small_camera());
+  for (const double texels : {0.6, 0.9, 1.2}) {  // per pixel
+    const double distance_m = texels * 121 / 80;
+    const double m_per_px = distance_m / 121;
+    Band band;
+    cv::Mat mean(96, 128, CV_32F, cv::Scalar(0));
+    for (const int k : {-1, 0, 1}) {
+      const CameraPose pose =
+          looking({0, 0, 0.002 * k}, distance_m, 0.4 * k * m_per_px, -0.2 * k * m_per_px);
+      band.during.push_back({0, pose});
+      cv::accumulateWeighted(renderer.view(pose), mean, 1.0 / (k + 2));
+    }
+    const cv::Rect within(64 - 30, 48 - 22, 60, 44);
+    const auto rms_to = [&](const cv::Mat& picture) {
+      cv::Mat difference;
+      cv::subtract(picture, mean, difference, cv::noArray(), CV_32F);
+      EXPECT_NEAR(cv::mean(difference(within))[0], 0, 0.1) << texels;
+      return cv::norm(difference(within), cv::NORM_L2) / std::sqrt(double(within.area()));
+    };
+    const double blurred = rms_to(renderer.expose(Shot{band}));
+    const double sharp = rms_to(renderer.view(band.during[1].world_from_camera));
+    EXPECT_LT(blurred, 1) << texels;  // 0.33 is rounding, the rest a box for steps
+    EXPECT_GT(sharp, 2 * blurred) << texels;
   }
 }
 

@@ -18,6 +18,8 @@ constexpr float kFirstMean = 1.834f;
 /// Texels^2 of a footprint's mixed moment, ss' + tt', that a rectangle leaves out: 0.02 of variance
 /// beside the 0.17 that interpolation between texels has by itself.
 constexpr float kAskew = 0.25f;
+/// The square of a box's width over its variance.
+constexpr float kBox = 12;
 
 float taps_along(float length, float tap) {
   return length > tap ? std::min(std::ceil(length / tap), kMaxTaps) : 1;
@@ -66,29 +68,60 @@ Reading reading_of(const SeenPlane& plane, const Level& level, const Shares& sha
   return r;
 }
 
-}  // namespace
+/// Lengths of a footprint's sides, and how many texels its narrow one spans.
+struct Size {
+  float a;
+  float b;
+  float texels;
+};
 
-Reading reading(const SeenPlane& plane, const Footprint& f) {
+Size size(const Footprint& f) {
   const float a = std::sqrt(f.sa * f.sa + f.ta * f.ta);
   const float b = std::sqrt(f.sb * f.sb + f.tb * f.tb);
   const float longest = std::max(a, b);
   const float narrowest = std::abs(f.sa * f.tb - f.sb * f.ta) / std::max(longest, 1e-20f);
-  const float texels = std::max(narrowest, longest / kMaxTaps);
-  if (!(texels >= kFirstMean)) {
-    const Shares s = upright_shares(f, a, b);
-    Reading r = reading_of(plane, plane.texture->sharp(), s);
-    const auto width = [](float x, float y) {
-      return std::clamp(std::sqrt(x * x + y * y), 1e-3f, kSharpTap);
-    };
-    r.width_s = width(s.tap.sa, s.tap.sb);
-    r.width_t = width(s.tap.ta, s.tap.tb);
-    return r;
+  return {a, b, std::max(narrowest, longest / kMaxTaps)};
+}
+
+/// Sides of the rectangle with the spread of a tap and this variance more, texels.
+Reading sharp_reading(const SeenPlane& plane, const Shares& s, float more_s, float more_t) {
+  Reading r = reading_of(plane, plane.texture->sharp(), s);
+  const auto width = [](float x, float y, float more) {
+    return std::clamp(std::sqrt(x * x + y * y + kBox * more), 1e-3f, kSharpTap);
+  };
+  r.width_s = width(s.tap.sa, s.tap.sb, more_s);
+  r.width_t = width(s.tap.ta, s.tap.tb, more_t);
+  return r;
+}
+
+}  // namespace
+
+Reading reading(const SeenPlane& plane, const Footprint& f) {
+  const Size spans = size(f);
+  if (!(spans.texels >= kFirstMean)) {
+    return sharp_reading(plane, upright_shares(f, spans.a, spans.b), 0, 0);
   }
-  const float octaves = std::min(std::log2(texels) - 1, 32.f);
+  const float octaves = std::min(std::log2(spans.texels) - 1, 32.f);
   const Level& level = plane.texture->mean(int(std::lround(kLevelsPerOctave * octaves)));
   const float scale = std::max(level.per_texel_s, level.per_texel_t);
-  return reading_of(plane, level,
-                    shares(f, taps_along(a * scale, kMeanTap), taps_along(b * scale, kMeanTap)));
+  return reading_of(
+      plane, level,
+      shares(f, taps_along(spans.a * scale, kMeanTap), taps_along(spans.b * scale, kMeanTap)));
+}
+
+std::optional<Reading> spread_reading(const SeenPlane& plane, const Footprint& f,
+                                      const Eigen::Matrix2f& covariance) {
+  const Size spans = size(f);
+  if (!(spans.texels < kFirstMean)) return std::nullopt;
+  const Shares s = upright_shares(f, spans.a, spans.b);
+  const Footprint& tap = s.tap;
+  const float square_s = tap.sa * tap.sa + tap.sb * tap.sb + kBox * covariance(0, 0);
+  const float square_t = tap.ta * tap.ta + tap.tb * tap.tb + kBox * covariance(1, 1);
+  const float askew = tap.sa * tap.ta + tap.sb * tap.tb + kBox * covariance(0, 1);
+  const bool fits =
+      std::max(square_s, square_t) <= kSharpTap * kSharpTap && std::abs(askew) <= kAskew;
+  if (!fits) return std::nullopt;
+  return sharp_reading(plane, s, covariance(0, 0), covariance(1, 1));
 }
 
 }  // namespace kestrel::sim_detail

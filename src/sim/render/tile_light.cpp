@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coverage.hpp"
+#include "filled_tile.hpp"
 #include "reading.hpp"
 
 namespace kestrel::sim_detail {
@@ -28,10 +29,6 @@ std::vector<Layer> layers(const View& view, const std::array<Eigen::Vector3f, 4>
 }
 
 bool is_finite(const Footprint& f) { return std::isfinite(f.sa + f.ta + f.sb + f.tb); }
-
-Footprint footprint_at(const SeenPlane& plane, const Rays& rays, int u, int v) {
-  return footprint(plane, rays.ray(u, v), rays.ray(u + 1, v), rays.ray(u, v + 1));
-}
 
 /// What one plane gives to a run of pixels.
 struct Shades {
@@ -118,19 +115,6 @@ void add_blend(const View& view, const std::vector<Layer>& layers, const Rays& r
   for (std::size_t k = 0; k < kRun; ++k) sum[k] += light[k] + open[k] * view.background;
 }
 
-/// Adds what the tile sees of the one plane that fills it: with one footprint for all where that is
-/// good, else with one for each run.
-void add_filled(const View& view, const SeenPlane& plane, bool even, const Rays& rays,
-                const Tile& tile, TileLight& sum) {
-  const int rows = even ? tile.rows : 1;
-  for (int row = 0; row < tile.rows; row += rows) {
-    const int v = tile.v + row;
-    const int middle = std::min(tile.u + kRun / 2, rays.size().width - 1);
-    const Footprint f = footprint_at(plane, rays, middle, v + rows / 2);
-    view.add_mean_light(reading(plane, f), rays.run(tile.u, v), rows, &sum[begin_of_row(row)]);
-  }
-}
-
 void add_view(const View& view, const Rays& rays, const Tile& tile, TileLight& sum) {
   const auto corners = rays.corners(tile);
   const std::vector<Layer> seen = layers(view, corners);
@@ -140,7 +124,7 @@ void add_view(const View& view, const Rays& rays, const Tile& tile, TileLight& s
   }
   const SeenPlane& front = *seen.front().plane;
   if (seen.front().extent == Extent::All && front.opacity == 1) {
-    return add_filled(view, front, is_even(front, corners), rays, tile, sum);
+    return add_filled(view, front, rays, tile, sum);
   }
   for (int row = 0; row < tile.rows; ++row) {
     add_blend(view, seen, rays, tile.u, tile.v + row, &sum[begin_of_row(row)]);
@@ -151,6 +135,13 @@ void add_view(const View& view, const Rays& rays, const Tile& tile, TileLight& s
 
 TileLight sum_of_views(const std::vector<View>& views, const Rays& rays, const Tile& tile) {
   TileLight sum{};
+  if (views.size() > 1) {
+    if (const std::optional<Reading> reading = reading_in_motion(views, rays, tile)) {
+      views.front().add_mean_light(*reading, rays.run(tile.u, tile.v), tile.rows, sum.data());
+      for (float& light : sum) light *= float(views.size());
+      return sum;
+    }
+  }
   for (const View& view : views) add_view(view, rays, tile, sum);
   return sum;
 }
