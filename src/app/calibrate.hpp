@@ -24,6 +24,16 @@ struct CalibrateArguments {
   Printed printed = Printed::Tables;
 };
 
+/// What `calibrate hand-eye` was asked to do.
+struct HandEyeArguments {
+  std::filesystem::path input;                    // run folder or CSV
+  std::filesystem::path output;                   // empty: runs/hand_eye
+  std::vector<double> translation_m = {0, 0, 0};  // of a recording without positions
+};
+
+/// Puts the verb below `calibrate`.
+void add_hand_eye(CLI::App& calibrate, const std::shared_ptr<HandEyeArguments>& arguments);
+
 /// Puts the verb and its options on a command line.
 void add_calibrate(CLI::App& app, const std::shared_ptr<CalibrateArguments>& arguments);
 

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "kestrel/geometry/rotation.hpp"
 #include "kestrel/io/camera_file.hpp"
+#include "kestrel/io/mount_file.hpp"
 #include "kestrel/io/video_writer.hpp"
 
 #include "calibration/board_views.hpp"
@@ -132,6 +134,50 @@ TEST_F(Calibrate, ChoosesTheFramesOfAVideoThatShowSomethingNew) {
   const auto json = nlohmann::json::parse(done.out);
   EXPECT_LE(json["views"].size(), 10u);
   EXPECT_GE(json["views"].size(), 6u);
+}
+
+TEST_F(Calibrate, HandEyeFindsTheMountOfASimulatedFlight) {
+  const fs::path source = KESTREL_SOURCE_DIR;
+  std::string task = read(source / "tasks/hover.yaml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(task.find(from), std::string::npos) << from;
+    task.replace(task.find(from), from.size(), to);
+  };
+  replace("../calib", (source / "calib").string());
+  // Off to the side, turned away and in a hurry: the flight rolls, pitches and yaws.
+  replace("[-9, 1.5, 1.0], heading_deg: -12", "[-9, 3, 1.0], heading_deg: -30");
+  replace("gain_per_s: 0.5", "gain_per_s: 1.5");
+  folder_.write("task.yaml", task);
+  const Outcome flown =
+      Program({"simulate", "task.yaml", "--no-video", "--output", "flight"}, folder_.path())
+          .wait(120);
+  ASSERT_EQ(flown.exit_code, 0) << flown.err;
+  const Outcome done = run({"hand-eye", "flight", "--output", "eye"});
+  ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
+  EXPECT_EQ(done.out.rfind("  mount ", 0), 0u)
+      << "ViSP's own words are not to be seen: " << done.out;
+  const Mount mount = load_mount(folder_ / "eye" / "mount.yaml");
+  const Mount truth = load_mount(source / "calib/mount_forward.yaml");
+  // In flight the tracker's errors of neighbouring frames are alike: half a degree, 5 cm at 5 to 9
+  // m.
+  EXPECT_LT(rotation_vector(truth.rotation.transpose() * mount.rotation).norm(), 0.5 * M_PI / 180);
+  EXPECT_LT((mount.translation - truth.translation).norm(), 0.08);
+  EXPECT_SAYS(read(folder_ / "eye" / "mount.svg"), "From its right side");
+}
+
+TEST_F(Calibrate, HandEyeRefusesAHoverAndLeavesNoMount) {
+  std::string rows =
+      "stamp_s,roll_deg,pitch_deg,yaw_deg,pose_tx_m,pose_ty_m,pose_tz_m,pose_tux_rad,pose_tuy_rad,"
+      "pose_tuz_rad\n";
+  for (int i = 0; i < 20; ++i)
+    rows += std::to_string(i) + ",0,0," + std::to_string(3 * i) + ",0,0,2,0,0,0\n";
+  folder_.write("hover.csv", rows);
+  const Outcome done = run({"hand-eye", "hover.csv", "--output", "eye"});
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_SAYS(done.out, "REFUSED: the vehicle was turned about one axis only");
+  EXPECT_FALSE(fs::exists(folder_ / "eye"));
+  EXPECT_EQ(run({"hand-eye"}).exit_code, 2);
+  EXPECT_SAYS(run({"hand-eye", "none.csv"}).err, "none.csv");
 }
 
 }  // namespace
