@@ -11,6 +11,12 @@
 
 namespace kestrel::app {
 
+/// How whoever holds the board before a camera is told what to show next.
+enum class Guide {
+  Lines,   // on the terminal
+  Window,  // there and in a window
+};
+
 /// What `calibrate` was asked to do.
 struct CalibrateArguments {
   std::vector<std::string> inputs;  // pictures, folders, patterns, videos, or one live camera
@@ -20,6 +26,7 @@ struct CalibrateArguments {
   std::filesystem::path output;  // empty: runs/calibrate
   std::string name = "Camera";   // of the camera, in the files
   int views = 12;                // to collect from a video or camera
+  Guide guide = Guide::Lines;
   CrossCheck cross_check = CrossCheck::Visp;
   Printed printed = Printed::Tables;
 };

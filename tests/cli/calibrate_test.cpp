@@ -1,5 +1,6 @@
 // The verb `calibrate` as its users meet it, on pictures rendered with a known camera.
 #include <filesystem>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 
 #include "calibration/board_views.hpp"
 #include "cli/program.hpp"
+#include "cli/video_sender.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel::test {
@@ -178,6 +180,53 @@ TEST_F(Calibrate, HandEyeRefusesAHoverAndLeavesNoMount) {
   EXPECT_FALSE(fs::exists(folder_ / "eye"));
   EXPECT_EQ(run({"hand-eye"}).exit_code, 2);
   EXPECT_SAYS(run({"hand-eye", "none.csv"}).err, "none.csv");
+}
+
+/// Poses that show all that a guided capture asks for: the four borders, both tilts, near.
+std::vector<TargetPose> asked_for(const Board& board) {
+  const auto at = [&](double x, double y, double depth_m, double tilt, double turn) {
+    return board_pose_at(board, {x, y}, depth_m, {tilt, turn, 0.05});
+  };
+  return {at(-0.205, 0, 0.45, 0, 0), at(0.22, 0, 0.45, 0, 0), at(0, -0.177, 0.45, 0, 0),
+          at(0, 0.167, 0.45, 0, 0),  at(0, 0, 0.5, 0.5, 0),   at(0, 0, 0.5, -0.5, 0),
+          at(0, 0, 0.5, 0, 0.5),     at(0, 0, 0.5, 0, -0.5),  at(0, 0, 0.31, 0, 0)};
+}
+
+/// Those, over and over, each held for 0.6 s, as a camera on the network sends them.
+std::unique_ptr<VideoSender> camera_of(const TempFolder& folder, const std::string& url) {
+  const Board board = parse_board(kBoard);
+  int number = 0;
+  for (const TargetPose& pose : asked_for(board)) {
+    const cv::Mat picture = board_picture(board, straight(), pose);
+    for (int again = 0; again < 6; ++again) {
+      const std::string name = std::to_string(1000 + number++).substr(1) + ".png";
+      cv::imwrite((folder / name).string(), picture);
+    }
+  }
+  const std::vector<std::string> input{"-framerate", "10", "-stream_loop",
+                                       "-1",         "-i", (folder / "%03d.png").string()};
+  const std::vector<std::string> output{"-c:v",   "mjpeg",   "-q:v", "2", "-f",
+                                        "mpjpeg", "-listen", "1",    url};
+  return std::make_unique<VideoSender>(VideoStream{input, output}, folder.path());
+}
+
+TEST_F(Calibrate, GuidesBeforeALiveCameraWithoutAWindow) {
+  const std::string url = "http://127.0.0.1:" + std::to_string(free_port()) + "/board";
+  const auto camera = camera_of(folder_, url);
+  const Outcome done = Program({"calibrate", url, "--board", kBoard, "--model", "none", "--views",
+                                "6", "--output", "out", "--no-visp", "--json"},
+                               folder_.path())
+                           .wait(60);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_SAYS(done.err, "  now: move the board to the ");
+  const auto json = nlohmann::json::parse(done.out);
+  EXPECT_GE(json["views"].size(), 6u);
+  EXPECT_LE(json["views"].size(), 9u) << "each pose once";
+  for (const auto& p : json["parameters"]) {
+    if (p["name"] == "fx") {
+      EXPECT_NEAR(p["value"].get<double>(), 610, 6) << "of JPEG pictures";
+    }
+  }
 }
 
 }  // namespace
