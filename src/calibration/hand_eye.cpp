@@ -15,6 +15,7 @@
 namespace kestrel {
 namespace {
 
+constexpr std::size_t kGroups = 10;  // of the jackknife
 const Eigen::Vector3d kNowhere = Eigen::Vector3d::Zero();
 
 bool has_positions(const std::vector<HandEyeStation>& stations) {
@@ -64,18 +65,21 @@ std::optional<Mount> solved(const std::vector<HandEyeStation>& stations) {
   return mount;
 }
 
-/// Standard deviations by leaving each station out once; false when ViSP fails without one.
+/// Standard deviations by leaving each group of neighbours out once; false when ViSP fails without
+/// one.
 bool add_deviations(const std::vector<HandEyeStation>& stations, HandEyeResult& result) {
   using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  const auto n = Eigen::Index(stations.size());
+  const std::size_t groups = std::min(stations.size(), kGroups);
+  const auto n = Eigen::Index(groups);
   Matrix6X change(6, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    std::vector<HandEyeStation> others = stations;
-    others.erase(others.begin() + i);
+  for (std::size_t i = 0; i < groups; ++i) {
+    const auto begin = stations.begin();
+    std::vector<HandEyeStation> others(begin, begin + long(i * stations.size() / groups));
+    others.insert(others.end(), begin + long((i + 1) * stations.size() / groups), stations.end());
     const auto mount = solved(others);
     if (!mount) return false;
-    change.col(i) << rotation_vector(result.body_from_camera->rotation.transpose() *
-                                     mount->rotation),
+    change.col(Eigen::Index(i)) << rotation_vector(result.body_from_camera->rotation.transpose() *
+                                                   mount->rotation),
         mount->translation - result.body_from_camera->translation;
   }
   const Vector6d mean = change.rowwise().mean();

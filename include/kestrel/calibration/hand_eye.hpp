@@ -46,9 +46,10 @@ struct HandEyeResult {
 /// Lenz 1989, then virtual visual servoing), in the module kestrel_visp_calibration.so, which is
 /// loaded here. The translation is estimated when every station has a position.
 ///
-/// Standard deviations are the jackknife's: each station is left out once, sqrt((n - 1) / n sum
-/// (x_i - mean)^2) (Efron and Stein 1981). They know of noise that differs from station to station,
-/// not of a compass that is off everywhere.
+/// Standard deviations are the jackknife's: the stations, in their order, are dealt into ten groups
+/// of neighbours (fewer than ten: one each), each group is left out once, sqrt((g - 1) / g sum
+/// (x_i - mean)^2) (Efron and Stein 1981; groups: Kunsch 1989). So they know of errors that are
+/// alike in neighbours, as in flight, but not of a compass that is off everywhere.
 ///
 /// Throws std::invalid_argument for options that do not check, std::runtime_error when the module
 /// cannot be loaded.
