@@ -148,7 +148,7 @@ using Arguments =
     std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
                  CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
                  LawsArguments, ExplainArguments, SwitchArguments, KeyArguments, JogArguments,
-                 CalibrateArguments, CamerasArguments, RecordArguments>;
+                 CalibrateArguments, HandEyeArguments, CamerasArguments, RecordArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

@@ -83,6 +83,11 @@ void add_calibrate(CLI::App& app, const std::shared_ptr<CalibrateArguments>& a) 
                    "How many views to collect from a video or camera, 4 to 60 (default 12)")
       ->check(CLI::Range(4, 60));
   verb->add_flag_callback(
+      "--display", [a] { a->guide = Guide::Window; },
+      "Of a video or camera, show in a window the board that is seen, where views are kept and "
+      "what "
+      "to show next; a right click ends the collecting (default: lines on the terminal only)");
+  verb->add_flag_callback(
       "--no-visp", [a] { a->cross_check = CrossCheck::None; },
       "Do not let ViSP calibrate the same views to compare (default: it does)");
   verb->add_flag_callback(
@@ -94,7 +99,7 @@ int run(const CalibrateArguments& a) {
   const Task task = task_of(a);
   GuideOptions guide;
   guide.views = a.views;
-  const ViewCollector views = collect_views(task.inputs, task.board, guide);
+  const ViewCollector views = collect_views(task.inputs, task.board, guide, a.guide);
   if (views.size().width == 0)
     throw std::runtime_error("not one picture could be read; look at the lines above");
   CalibrationJob job{task.board, a.model, views.size(), views.views(), a.cross_check};

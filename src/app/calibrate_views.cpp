@@ -1,14 +1,17 @@
 #include "calibrate_views.hpp"
 
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "kestrel/calibration/guide_picture.hpp"
 #include "kestrel/io/gray_image.hpp"
 #include "kestrel/io/image_files.hpp"
 #include "kestrel/io/sequence.hpp"
 #include "kestrel/io/source_address.hpp"
 
+#include "display.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "simulated_camera.hpp"
@@ -72,7 +75,25 @@ std::string hint(const ViewCollector& views, const Offered& offered) {
                      next, offered.what);
 }
 
-void look_at_frames(const std::string& input, ViewCollector& views) {
+/// Shows how the collecting goes, where that was asked for.
+class GuideView {
+ public:
+  explicit GuideView(Guide guide) : guide_(guide) {}
+  /// False once the user has had enough.
+  bool show(const cv::Mat& gray, const Offered& offered, const ViewCollector& views) {
+    if (guide_ == Guide::Lines) return true;
+    const cv::Mat picture = guide_picture(gray, offered, views);
+    if (!window_)
+      window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel: calibrate");
+    return window_->show(picture);
+  }
+
+ private:
+  Guide guide_;
+  std::unique_ptr<Window> window_;
+};
+
+void look_at_frames(const std::string& input, ViewCollector& views, Guide guide) {
   SequenceOptions recorded;
   recorded.input = input;
   const bool live = is_camera(input);
@@ -80,6 +101,7 @@ void look_at_frames(const std::string& input, ViewCollector& views) {
   Progress progress(source->frame_count());
   std::vector<std::string> missing;
   std::string last_hint;
+  GuideView window(guide);
   while (!interrupted()) {
     const auto frame = source->next();
     if (!frame) break;
@@ -95,6 +117,7 @@ void look_at_frames(const std::string& input, ViewCollector& views) {
     const std::string next = missing.empty() ? "" : missing.front();
     if (live && next != last_hint) fmt::print(stderr, "  now: {}\n", next);
     last_hint = next;
+    if (!window.show(frame->gray, offered, views)) break;
     if (live && missing.empty()) break;
   }
   progress.clear();
@@ -105,7 +128,7 @@ void look_at_frames(const std::string& input, ViewCollector& views) {
 }  // namespace
 
 ViewCollector collect_views(const std::vector<std::string>& inputs, const Board& board,
-                            const GuideOptions& options) {
+                            const GuideOptions& options, Guide guide) {
   std::vector<fs::path> pictures;
   std::string moving;
   for (const std::string& input : inputs) {
@@ -116,11 +139,14 @@ ViewCollector collect_views(const std::vector<std::string>& inputs, const Board&
   if (!moving.empty() && inputs.size() > 1)
     throw std::runtime_error(moving +
                              ": a video or camera stands alone; give it as the only input");
-  ViewCollector views(board, moving.empty() ? Choose::All : Choose::Guided, options);
+  const Choose choose = moving.empty()      ? Choose::All
+                        : is_camera(moving) ? Choose::Live
+                                            : Choose::Guided;
+  ViewCollector views(board, choose, options);
   if (moving.empty()) {
     look_at_pictures(pictures, views);
   } else {
-    look_at_frames(moving, views);
+    look_at_frames(moving, views, guide);
   }
   return views;
 }

@@ -194,6 +194,9 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_jog(app, jog);
   const auto calibrate = std::make_shared<CalibrateArguments>();
   add_calibrate(app, calibrate);
+  const auto hand_eye = std::make_shared<HandEyeArguments>();
+  CLI::App* calibrating = app.get_subcommand("calibrate");
+  add_hand_eye(*calibrating, hand_eye);
   const auto cameras = std::make_shared<CamerasArguments>();
   add_cameras(app, cameras);
   const auto record = std::make_shared<RecordArguments>();
@@ -219,6 +222,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("switch")) return Arguments(*switching);
   if (app.got_subcommand("key")) return Arguments(*key);
   if (app.got_subcommand("jog")) return Arguments(*jog);
+  if (calibrating->got_subcommand("hand-eye")) return Arguments(*hand_eye);
   if (app.got_subcommand("calibrate")) return Arguments(*calibrate);
   if (app.got_subcommand("cameras")) return Arguments(*cameras);
   if (app.got_subcommand("record")) return Arguments(*record);

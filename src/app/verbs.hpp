@@ -15,6 +15,7 @@ int run(const SimulateArguments& arguments);
 int run(const ReceiveArguments& arguments);
 int run(const CheckArguments& arguments);
 int run(const CalibrateArguments& arguments);
+int run(const HandEyeArguments& arguments);
 int run(const DemoArguments& arguments);
 int run(const EvaluateArguments& arguments);
 int run(const CompareArguments& arguments);

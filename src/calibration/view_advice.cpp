@@ -95,6 +95,7 @@ void GuideOptions::check() const {
   require(border > 0 && border < 0.5, "border: more than 0, less than 0.5");
   require(near_size > 0 && near_size < 1, "near_size: more than 0, less than 1");
   require(largest_edge_px > 1, "largest_edge_px: more than 1");
+  require(largest_motion > 0 && largest_motion < 1, "largest_motion: more than 0, less than 1");
   require(smallest_change > 0 && smallest_change < 1, "smallest_change: more than 0, less than 1");
 }
 

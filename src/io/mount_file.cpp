@@ -58,8 +58,8 @@ std::string place(const Eigen::Vector3d& t) {
 
 Mount read_mount(const Section& section) {
   if (section.has("file")) return load_mount(section.path("file"));
-  const Mount mount = section.has("preset") ? mount_of_preset(section)
-                                            : read_pose<frame::Body, frame::Camera>(section);
+  Mount mount = section.has("preset") ? mount_of_preset(section)
+                                      : read_pose<frame::Body, frame::Camera>(section);
   const double lever = mount.translation.norm();
   if (lever > kLargestLever_m) {
     section.fail(

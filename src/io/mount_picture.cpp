@@ -36,7 +36,8 @@ std::array<Vector3d, 4> corner_rays(const std::optional<Camera>& camera) {
   const std::array<Pixel, 4> corners = {
       {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    for (double share = 1; share > 0.05; share -= 0.05) {
+    for (int tenths = 10; tenths > 0; --tenths) {
+      const double share = tenths / 10.0;
       const ImagePoint at = camera->to_image_point(
           {p.u0 + share * (corners[i].u - p.u0), p.v0 + share * (corners[i].v - p.v0)});
       if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;

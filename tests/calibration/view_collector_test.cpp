@@ -45,6 +45,20 @@ TEST(ViewCollector, KeepsOfAVideoWhatShowsSomethingNew) {
   EXPECT_EQ(views.views().size(), 2u);
 }
 
+TEST(ViewCollector, WaitsUntilABoardBeforeALiveCameraIsStill) {
+  ViewCollector views(kBoard, Choose::Live);
+  const Offered first = views.offer("0", picture(0.4, 0.4));
+  EXPECT_FALSE(first.kept) << "nobody knows whether it moves";
+  EXPECT_EQ(first.what, "hold still");
+  EXPECT_EQ(first.points.size(), 35u);
+  EXPECT_FALSE(views.offer("1", picture(0.37, 0.4)).kept) << "it came 8 % nearer: some pixels";
+  EXPECT_FALSE(views.offer("2", cv::Mat(360, 480, CV_8UC1, cv::Scalar(90))).kept);
+  EXPECT_EQ(views.offer("3", picture(0.37, 0.4)).what, "hold still") << "it was out of sight";
+  EXPECT_TRUE(views.offer("4", picture(0.37, 0.4)).kept);
+  EXPECT_EQ(views.offer("5", picture(0.37, 0.4)).what, "like a view that is kept");
+  EXPECT_EQ(views.views().size(), 1u);
+}
+
 TEST(ViewCollector, SaysWhyAPictureIsNotKept) {
   for (const Choose choose : {Choose::All, Choose::Guided}) {
     ViewCollector views(kBoard, choose);

@@ -1,16 +1,20 @@
 // The verb `calibrate` as its users meet it, on pictures rendered with a known camera.
 #include <filesystem>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "kestrel/geometry/rotation.hpp"
 #include "kestrel/io/camera_file.hpp"
+#include "kestrel/io/mount_file.hpp"
 #include "kestrel/io/video_writer.hpp"
 
 #include "calibration/board_views.hpp"
 #include "cli/program.hpp"
+#include "cli/video_sender.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel::test {
@@ -132,6 +136,97 @@ TEST_F(Calibrate, ChoosesTheFramesOfAVideoThatShowSomethingNew) {
   const auto json = nlohmann::json::parse(done.out);
   EXPECT_LE(json["views"].size(), 10u);
   EXPECT_GE(json["views"].size(), 6u);
+}
+
+TEST_F(Calibrate, HandEyeFindsTheMountOfASimulatedFlight) {
+  const fs::path source = KESTREL_SOURCE_DIR;
+  std::string task = read(source / "tasks/hover.yaml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(task.find(from), std::string::npos) << from;
+    task.replace(task.find(from), from.size(), to);
+  };
+  replace("../calib", (source / "calib").string());
+  // Off to the side, turned away and in a hurry: the flight rolls, pitches and yaws.
+  replace("[-9, 1.5, 1.0], heading_deg: -12", "[-9, 3, 1.0], heading_deg: -30");
+  replace("gain_per_s: 0.5", "gain_per_s: 1.5");
+  folder_.write("task.yaml", task);
+  const Outcome flown =
+      Program({"simulate", "task.yaml", "--no-video", "--output", "flight"}, folder_.path())
+          .wait(120);
+  ASSERT_EQ(flown.exit_code, 0) << flown.err;
+  const Outcome done = run({"hand-eye", "flight", "--output", "eye"});
+  ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
+  EXPECT_EQ(done.out.rfind("  mount ", 0), 0u)
+      << "ViSP's own words are not to be seen: " << done.out;
+  const Mount mount = load_mount(folder_ / "eye" / "mount.yaml");
+  const Mount truth = load_mount(source / "calib/mount_forward.yaml");
+  // In flight the tracker's errors of neighbouring frames are alike: half a degree, 5 cm at 5 to 9
+  // m.
+  EXPECT_LT(rotation_vector(truth.rotation.transpose() * mount.rotation).norm(), 0.5 * M_PI / 180);
+  EXPECT_LT((mount.translation - truth.translation).norm(), 0.08);
+  EXPECT_SAYS(read(folder_ / "eye" / "mount.svg"), "From its right side");
+}
+
+TEST_F(Calibrate, HandEyeRefusesAHoverAndLeavesNoMount) {
+  std::string rows =
+      "stamp_s,roll_deg,pitch_deg,yaw_deg,pose_tx_m,pose_ty_m,pose_tz_m,pose_tux_rad,pose_tuy_rad,"
+      "pose_tuz_rad\n";
+  for (int i = 0; i < 20; ++i)
+    rows += std::to_string(i) + ",0,0," + std::to_string(3 * i) + ",0,0,2,0,0,0\n";
+  folder_.write("hover.csv", rows);
+  const Outcome done = run({"hand-eye", "hover.csv", "--output", "eye"});
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_SAYS(done.out, "REFUSED: the vehicle was turned about one axis only");
+  EXPECT_FALSE(fs::exists(folder_ / "eye"));
+  EXPECT_EQ(run({"hand-eye"}).exit_code, 2);
+  EXPECT_SAYS(run({"hand-eye", "none.csv"}).err, "none.csv");
+}
+
+/// Poses that show all that a guided capture asks for: the four borders, both tilts, near.
+std::vector<TargetPose> asked_for(const Board& board) {
+  const auto at = [&](double x, double y, double depth_m, double tilt, double turn) {
+    return board_pose_at(board, {x, y}, depth_m, {tilt, turn, 0.05});
+  };
+  return {at(-0.205, 0, 0.45, 0, 0), at(0.22, 0, 0.45, 0, 0), at(0, -0.177, 0.45, 0, 0),
+          at(0, 0.167, 0.45, 0, 0),  at(0, 0, 0.5, 0.5, 0),   at(0, 0, 0.5, -0.5, 0),
+          at(0, 0, 0.5, 0, 0.5),     at(0, 0, 0.5, 0, -0.5),  at(0, 0, 0.31, 0, 0)};
+}
+
+/// Those, over and over, each held for 0.6 s, as a camera on the network sends them.
+std::unique_ptr<VideoSender> camera_of(const TempFolder& folder, const std::string& url) {
+  const Board board = parse_board(kBoard);
+  int number = 0;
+  for (const TargetPose& pose : asked_for(board)) {
+    const cv::Mat picture = board_picture(board, straight(), pose);
+    for (int again = 0; again < 6; ++again) {
+      const std::string name = std::to_string(1000 + number++).substr(1) + ".png";
+      cv::imwrite((folder / name).string(), picture);
+    }
+  }
+  const std::vector<std::string> input{"-framerate", "10", "-stream_loop",
+                                       "-1",         "-i", (folder / "%03d.png").string()};
+  const std::vector<std::string> output{"-c:v",   "mjpeg",   "-q:v", "2", "-f",
+                                        "mpjpeg", "-listen", "1",    url};
+  return std::make_unique<VideoSender>(VideoStream{input, output}, folder.path());
+}
+
+TEST_F(Calibrate, GuidesBeforeALiveCameraWithoutAWindow) {
+  const std::string url = "http://127.0.0.1:" + std::to_string(free_port()) + "/board";
+  const auto camera = camera_of(folder_, url);
+  const Outcome done = Program({"calibrate", url, "--board", kBoard, "--model", "none", "--views",
+                                "6", "--output", "out", "--no-visp", "--json"},
+                               folder_.path())
+                           .wait(60);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_SAYS(done.err, "  now: move the board to the ");
+  const auto json = nlohmann::json::parse(done.out);
+  EXPECT_GE(json["views"].size(), 6u);
+  EXPECT_LE(json["views"].size(), 9u) << "each pose once";
+  for (const auto& p : json["parameters"]) {
+    if (p["name"] == "fx") {
+      EXPECT_NEAR(p["value"].get<double>(), 610, 6) << "of JPEG pictures";
+    }
+  }
 }
 
 }  // namespace

@@ -2,13 +2,18 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
+
+#include "calibration/board_views.hpp"
 #include "cli/program.hpp"
 #include "cli/rendered_sequence.hpp"
+#include "cli/video_sender.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel::test {
@@ -93,6 +98,34 @@ TEST_F(WindowTest, ARightClickGivesUp) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.err.find("given up"), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+}
+
+/// A board that hangs still before a camera on the network.
+std::unique_ptr<VideoSender> board_camera(const TempFolder& folder, const std::string& url) {
+  const Board board = parse_board("chessboard:7x5:0.03");
+  const Camera camera({600, 600, 319.5, 239.5, 640, 480});
+  const TargetPose pose = board_pose_at(board, {0, 0}, 0.5, {0.3, 0.2, 0.1});
+  cv::imwrite((folder / "board.png").string(), board_picture(board, camera, pose));
+  const std::vector<std::string> input{"-framerate", "10", "-loop",
+                                       "1",          "-i", (folder / "board.png").string()};
+  const std::vector<std::string> output{"-c:v",   "mjpeg",   "-q:v", "2", "-f",
+                                        "mpjpeg", "-listen", "1",    url};
+  return std::make_unique<VideoSender>(VideoStream{input, output}, folder.path());
+}
+
+TEST_F(WindowTest, AGuidedCaptureEndsWithARightClick) {
+  const VirtualDisplay screen(folder_.path());
+  ASSERT_FALSE(screen.display().empty());
+  const std::string url = "http://127.0.0.1:" + std::to_string(free_port()) + "/board";
+  const auto camera = board_camera(folder_, url);
+  Program program({"calibrate", url, "--board", "chessboard:7x5:0.03", "--display", "--no-visp"},
+                  folder_.path(), {"DISPLAY=" + screen.display()});
+  ASSERT_TRUE(click(screen.display(), 100, 100, 3));
+  const Outcome outcome = program.wait(30);
+  EXPECT_EQ(outcome.exit_code, 1) << "one view is not enough for a camera";
+  EXPECT_NE(outcome.out.find("the board is seen in 1 picture"), std::string::npos)
+      << outcome.out << outcome.err;
+  EXPECT_NE(outcome.err.find("+ frame"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct GuideOptions {
   double border = 0.15;           // of the image: the board must reach so near to each border
   double near_size = 0.5;         // of a near view
   double largest_edge_px = 6;     // a wider one is blurred
+  double largest_motion = 0.004;  // of the width, from picture to picture of a live camera
   double smallest_change = 0.08;  // of place and size; of tilt, rad, twice as much
 
   /// Throws std::invalid_argument that names the first option out of its range.

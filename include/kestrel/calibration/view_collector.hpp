@@ -14,7 +14,8 @@ namespace kestrel {
 /// Which pictures are kept.
 enum class Choose {
   All,     // each that shows the board: pictures that somebody has chosen
-  Guided,  // those that view_advice takes: frames of a video or camera
+  Guided,  // those that view_advice takes: frames of a video
+  Live,    // of these, those in which the board has not moved since the picture before: a camera's
 };
 
 /// What came of a picture.
@@ -23,6 +24,7 @@ struct Offered {
   std::string what;                  // for a human: points found, or why it is not kept
   std::vector<std::string> missing;  // as ViewAdvice
   double progress = 0;
+  std::vector<BoardPoint> points{};  // of the board, where it is seen; empty: it is not
 };
 
 /// Collects the views of a board from pictures, one after the other.
@@ -43,7 +45,8 @@ class ViewCollector {
   std::size_t largest_view() const { return largest_view_; }
 
  private:
-  Offered kept(const std::string& name, const cv::Mat& gray, std::vector<BoardPoint> points);
+  Offered judged(const BoardView& view, const cv::Mat& gray, bool is_still);
+  Offered not_kept(const std::string& why) const;
   void keep(const BoardView& view, const ViewShape& shape, const cv::Mat& gray);
 
   Board board_;
@@ -52,6 +55,7 @@ class ViewCollector {
   ImageSize size_;
   std::vector<BoardView> views_;
   std::vector<ViewShape> shapes_;
+  std::vector<BoardPoint> before_;  // where the picture before showed the board
   cv::Mat largest_picture_;
   std::size_t largest_view_ = 0;
 };
