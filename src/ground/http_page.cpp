@@ -81,7 +81,8 @@ void give_stream(Shared& shared, const Request& request, Response& response) {
     ++shared.refusals.too_many;
     return say(response, 503, "too many viewers; close another page");
   }
-  const auto known = std::make_shared<std::uint64_t>(0);
+  // What was encoded for the last viewer may be minutes old: this one begins with the next frame.
+  const auto known = std::make_shared<std::uint64_t>(shared.frames.now().number);
   response.set_chunked_content_provider(
       "application/octet-stream", [&shared, seat, known](std::size_t, httplib::DataSink& sink) {
         return send_next(shared, *known, sink);

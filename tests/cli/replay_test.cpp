@@ -153,12 +153,13 @@ TEST_F(Replay, AHalfWrittenRunIsShownAsFarAsItGoes) {
   std::ofstream(folder_ / "half" / "run.mp4") << "the disk was full";
   const auto program = serve({"replay", "half"});
   httplib::Client client("127.0.0.1", port_);
-  httplib::Result runs;
+  httplib::Response runs;
   ASSERT_TRUE(comes([&] {
-    runs = client.Get("/runs", {{"Authorization", kBearer}});
-    return bool(runs);
+    const auto given = client.Get("/runs", {{"Authorization", kBearer}});
+    if (given) runs = *given;
+    return bool(given);
   }));
-  const auto run = nlohmann::json::parse(runs->body)[0];
+  const auto run = nlohmann::json::parse(runs.body)[0];
   EXPECT_GT(run["frame"].size(), 5u);
   EXPECT_LT(run["frame"].size(), 40u);
   EXPECT_SAYS(run["notes"].dump(), "has no end and was left out");
@@ -172,14 +173,15 @@ TEST_F(Replay, TrackIsLookedAtAndTakesNoCommand) {
   const auto program = serve({"track", "frames/%04d.png", "--roi", sequence_.roi, "--output",
                               "watched", "--no-video", "--rate", "5"});
   httplib::Client commands("127.0.0.1", port_ + 1);
-  httplib::Result answer;
+  httplib::Response answer;
   ASSERT_TRUE(comes([&] {
-    answer = commands.Post("/command", {{"Authorization", kBearer}}, R"({"do":"abort"})",
-                           "application/json");
-    return bool(answer);
+    const auto given = commands.Post("/command", {{"Authorization", kBearer}}, R"({"do":"abort"})",
+                                     "application/json");
+    if (given) answer = *given;
+    return bool(given);
   }));
-  EXPECT_EQ(answer->status, 409);
-  EXPECT_SAYS(answer->body, "nothing flies here");
+  EXPECT_EQ(answer.status, 409);
+  EXPECT_SAYS(answer.body, "nothing flies here");
   std::string seen;
   httplib::Client page("127.0.0.1", port_);
   page.Get("/stream", {{"Authorization", kBearer}}, [&](const char* data, std::size_t size) {
