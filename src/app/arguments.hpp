@@ -31,7 +31,11 @@ struct RunArguments {
 struct GroundArguments {
   std::optional<std::uint16_t> port;  // of the page; empty: no ground station
   std::string host = "127.0.0.1";
-  std::filesystem::path token;  // empty: a new one is printed
+  std::filesystem::path token;        // empty: a new one is printed
+  std::filesystem::path certificate;  // PEM, with its key; both empty: none
+  std::filesystem::path key;
+  bool self_signed = false;
+  bool plain = false;  // HTTP beyond this machine
 };
 
 struct TrackArguments {
@@ -45,6 +49,7 @@ struct TrackArguments {
   std::string camera_name = "Camera";
   std::vector<double> size_m;  // width, height of the target; empty: no pose
   TrackMethod method = TrackMethod::Hybrid;
+  GroundArguments ground;
   RunArguments run;
 };
 
@@ -134,6 +139,12 @@ struct RecordArguments {
   bool allow_drops = false;
 };
 
+/// Shows recorded runs in the ground station's page.
+struct ReplayArguments {
+  std::vector<std::filesystem::path> runs;  // one, or two to compare
+  GroundArguments ground;
+};
+
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path output;  // folder for the drawings of mounts; empty: none
@@ -144,11 +155,11 @@ struct DemoArguments {
   std::filesystem::path output;
 };
 
-using Arguments =
-    std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
-                 CheckArguments, DemoArguments, EvaluateArguments, CompareArguments, MergeArguments,
-                 LawsArguments, ExplainArguments, SwitchArguments, KeyArguments, JogArguments,
-                 CalibrateArguments, HandEyeArguments, CamerasArguments, RecordArguments>;
+using Arguments = std::variant<TrackArguments, ServoArguments, SimulateArguments, ReceiveArguments,
+                               CheckArguments, DemoArguments, EvaluateArguments, CompareArguments,
+                               MergeArguments, LawsArguments, ExplainArguments, SwitchArguments,
+                               KeyArguments, JogArguments, CalibrateArguments, HandEyeArguments,
+                               CamerasArguments, RecordArguments, ReplayArguments>;
 
 /// What the command line asks for: a verb's arguments, or an exit code after help, version or a
 /// usage error have been printed (0 or 2).

@@ -1,9 +1,7 @@
 #include "chain.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -12,30 +10,11 @@
 #include "kestrel/io/overlay.hpp"
 
 #include "interrupt.hpp"
+#include "pacer.hpp"
 #include "progress.hpp"
 
 namespace kestrel::app {
 namespace {
-
-/// Waits until a frame of a recording is due on a clock that started with its first frame.
-class Pacer {
- public:
-  explicit Pacer(Pace pace) : pace_(pace) {}
-  void wait_for(double stamp_s) {
-    if (pace_ == Pace::AsFastAsPossible) return;
-    if (!started_) {
-      started_ = true;
-      offset_s_ = monotonic_s() - stamp_s;
-    }
-    const double wait_s = stamp_s + offset_s_ - monotonic_s();
-    if (wait_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
-  }
-
- private:
-  Pace pace_;
-  bool started_ = false;
-  double offset_s_ = 0;
-};
 
 /// A frame of the run is worse the less is known: lost frames first, then large reprojection.
 /// One without an image shows nothing.

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "arguments.hpp"
+#include "ground_options.hpp"
+#include "replay.hpp"
 #include "source_options.hpp"
 
 namespace kestrel::app {
@@ -20,19 +22,12 @@ void add_run_options(CLI::App& verb, RunArguments& run) {
                 "Show each frame in a window; a right click ends the run (default: no window)");
 }
 
-void add_ground_options(CLI::App& verb, GroundArguments& ground) {
-  auto* port = verb.add_option_function<std::uint16_t>(
-      "--ground", [&ground](std::uint16_t number) { ground.port = number; },
-      "Serve the ground station's page at this port, its commands at the next one (0: any free "
-      "ones); the vehicle hovers until Start is pressed there (default: no page)");
-  verb.add_option("--ground-bind", ground.host,
-                  "Address to serve it at, a number (default 127.0.0.1: this machine only)")
-      ->needs(port);
-  verb.add_option("--ground-token", ground.token,
-                  "File of mode 0600 with the token that a viewer must show, as 'kestrel key FILE' "
-                  "makes it (default: a new token is printed once)")
-      ->needs(port);
-}
+constexpr const char* kFlightPage =
+    "Serve the ground station's page at this port, its commands at the next one (0: any free "
+    "ones); the vehicle hovers until Start is pressed there (default: no page)";
+constexpr const char* kTrackPage =
+    "Serve a page to look on at this port (0: any free one); frames go by at their own rate "
+    "(default: no page)";
 
 void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
   auto* verb = app.add_subcommand("track", "Find a template in a sequence, a video or a camera");
@@ -62,6 +57,7 @@ void add_track(CLI::App& app, const std::shared_ptr<TrackArguments>& a) {
           "paper (SIFT, kd-tree and RANSAC in every frame), detect (fast keypoints in every "
           "frame) or hybrid (follows the pixels, keypoints on doubt; default)")
       ->transform(CLI::CheckedTransformer(known_methods, CLI::ignore_case));
+  add_ground_options(*verb, a->ground, kTrackPage);
   add_run_options(*verb, a->run);
 }
 
@@ -78,14 +74,14 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
   verb->add_flag_callback(
       "--real-time", [a] { a->pace = Pace::RealTime; },
       "Play a recording at its own rate (default: as fast as possible)");
-  add_ground_options(*verb, a->ground);
+  add_ground_options(*verb, a->ground, kFlightPage);
   add_run_options(*verb, a->run);
 }
 
 void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
   add_simulate_options(*verb, a);
-  add_ground_options(*verb, a->ground);
+  add_ground_options(*verb, a->ground, kFlightPage);
   verb->get_option("--ground")->excludes(verb->get_option("--seeds"));
   verb->get_option("--ground")->excludes(verb->get_option("--real-time"));
   add_run_options(*verb, a->run);
@@ -201,6 +197,8 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   add_cameras(app, cameras);
   const auto record = std::make_shared<RecordArguments>();
   add_record(app, record);
+  const auto replay = std::make_shared<ReplayArguments>();
+  add_replay(app, replay);
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted (what was written is "
       "complete).\n'kestrel VERB --help' shows a verb's options.");
@@ -226,6 +224,7 @@ std::variant<Arguments, int> parse_command_line(int argc, char** argv) {
   if (app.got_subcommand("calibrate")) return Arguments(*calibrate);
   if (app.got_subcommand("cameras")) return Arguments(*cameras);
   if (app.got_subcommand("record")) return Arguments(*record);
+  if (app.got_subcommand("replay")) return Arguments(*replay);
   return Arguments(*demo);
 }
 

@@ -10,7 +10,9 @@
 #include "kestrel/io/truth_file.hpp"
 #include "kestrel/vision/tracker.hpp"
 
+#include "ground.hpp"
 #include "interrupt.hpp"
+#include "pacer.hpp"
 #include "progress.hpp"
 #include "task_setup.hpp"
 #include "track_job.hpp"
@@ -55,12 +57,13 @@ double error_px(const TrackTruth& truth, std::int64_t frame,
 class TrackRun {
  public:
   TrackRun(Tracker& tracker, const std::optional<PoseSetup>& pose, TrackTruth truth,
-           RunRecorder& recorder)
+           RunRecorder& recorder, OnlookerGround& ground)
       : tracker_(tracker),
         model_(tracker.model()),
         pose_setup_(pose),
         truth_(std::move(truth)),
-        recorder_(recorder) {}
+        recorder_(recorder),
+        ground_(ground) {}
 
   void start(const Frame& first) { state_ = tracker_.start(first.gray.cols, first.gray.rows); }
 
@@ -77,6 +80,7 @@ class TrackRun {
     estimates_[frame.index] = estimate;
     row.extra = {error_px(truth_, frame.index, estimate)};
     count(seen);
+    ground_.show(frame, row, seen, chain_ms);
     const double badness = seen.found() ? row.extra[0] : 1e6;
     const auto draw = [&] { return overlay(frame, model_, seen); };
     return recorder_.record(row, draw, badness, {source_ms, chain_ms, 0});
@@ -145,6 +149,7 @@ class TrackRun {
   std::optional<PoseSetup> pose_setup_;
   TrackTruth truth_;
   RunRecorder& recorder_;
+  OnlookerGround& ground_;
   TrackState state_;
   std::optional<TargetPose> last_pose_;
   TrackEstimate estimates_;
@@ -165,11 +170,12 @@ std::optional<Frame> next_image(FrameSource& source) {
 }
 
 /// Folds the tracker over the frames; the reason why it ended.
-std::string fold(TrackRun& job, FrameSource& source, Frame frame) {
+std::string fold(TrackRun& job, FrameSource& source, Pacer pacer, Frame frame) {
   Progress progress(source.frame_count());
   std::size_t told = 0;
   double source_ms = 0;
   while (true) {
+    pacer.wait_for(frame.stamp_s);
     if (!job.frame(frame, source_ms)) return "the window was closed";
     if (interrupted()) return "interrupted";
     progress.step(job.frames(), "");
@@ -198,10 +204,14 @@ int run(const TrackArguments& a) {
   RecorderOptions wanted =
       recorder_options(a.run, {}, job.sequence.rate_hz.value_or(30), {"corner_error_px"});
   if (a.run.output.empty()) wanted.folder = default_folder(a.input);
+  OnlookerGround ground(a.ground, "nothing flies here: track only looks");
   RunRecorder recorder(wanted);
-  TrackRun tracking(tracker, pose, truth, recorder);
+  TrackRun tracking(tracker, pose, truth, recorder, ground);
   tracking.start(first);
-  const std::string ended_by = fold(tracking, *source, first);
+  // What is live has its own pace, and what is watched is of a human's.
+  const bool is_watched_recording = ground.is_there() && job.live.empty();
+  const Pacer pacer(is_watched_recording ? Pace::RealTime : Pace::AsFastAsPossible);
+  const std::string ended_by = fold(tracking, *source, pacer, first);
   RunResult result{recorder.folder(), tracking.summary(*source, ended_by), 0};
   recorder.add_times(result.summary);
   result.summary.add("peak memory", peak_memory_mb(), "MB");

@@ -27,5 +27,6 @@ int run(const KeyArguments& arguments);
 int run(const JogArguments& arguments);
 int run(const CamerasArguments& arguments);
 int run(const RecordArguments& arguments);
+int run(const ReplayArguments& arguments);
 
 }  // namespace kestrel::app

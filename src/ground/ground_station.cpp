@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "kestrel/ground/request_guard.hpp"
 #include "kestrel/ground/stream_frame.hpp"
 #include "kestrel/io/image_codec.hpp"
 
@@ -14,8 +15,8 @@
 namespace kestrel {
 namespace {
 
-constexpr std::size_t kPageThreads = 16;     // besides the streams
-constexpr std::size_t kCommandThreads = 64;  // idle connections hold one for a second each
+constexpr std::size_t kPageThreads = 16;  // besides the streams
+constexpr std::size_t kCommandThreads = 64;
 
 void require(bool good, const char* what) {
   if (!good) throw std::invalid_argument(what);
@@ -27,6 +28,12 @@ std::string word_of_this_run() { return random_token().text().substr(0, 16); }
 /// How often sticks that nobody holds are looked for: the dead man is late by so much at most.
 constexpr std::chrono::milliseconds kLook{20};
 
+/// Pictures give way to the loop; commands do not.
+GuardedOptions modest(GuardedOptions options) {
+  options.start = give_way;
+  return options;
+}
+
 /// A view and when it was shown.
 struct Shown {
   std::shared_ptr<const GroundView> view;
@@ -35,10 +42,28 @@ struct Shown {
 
 }  // namespace
 
+std::vector<std::pair<std::string, long>> named(const GroundRefusals& r) {
+  return {{"wrong_token", r.wrong_token},
+          {"foreign", r.foreign},
+          {"malformed", r.malformed},
+          {"too_many", r.too_many},
+          {"stale", r.stale},
+          {"slow", r.slow},
+          {"huge", r.huge},
+          {"crowded", r.crowded},
+          {"no_place", r.no_place},
+          {"no_tls", r.no_tls},
+          {"view_only", r.view_only}};
+}
+
 void GroundOptions::check() const {
+  require(tls || allows_plain || is_loopback(host),
+          "host: beyond this machine whoever listens on the way reads the token: serve TLS, or "
+          "allow plain HTTP");
   require(max_streams >= 1 && max_streams <= 64, "max_streams: must be 1 to 64");
   require(std::isfinite(commands_per_s) && commands_per_s >= 1,
           "commands_per_s: must be finite and 1 or more (1/s)");
+  require(std::isfinite(request_s) && request_s > 0, "request_s: must be finite and positive (s)");
   require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality: must be 1 to 100");
   require(command_port == 0 || command_port != port,
           "command_port: must not be the port of the page");
@@ -64,8 +89,9 @@ struct GroundStation::Parts {
                {0},
                {0},
                {0}},
-        page(kPageThreads + std::size_t(options.max_streams)),
-        commands(kCommandThreads) {
+        page(modest(guarded(shared, kPageThreads + std::size_t(options.max_streams))),
+             shared.refusals.connections),
+        commands(guarded(shared, kCommandThreads), shared.refusals.connections) {
     serve_page(page.routes(), shared);
     serve_commands(commands.routes(), shared);
     // The commands first: a page that is served can command.
@@ -96,6 +122,7 @@ struct GroundStation::Parts {
 
   /// Encodes the newest view for all viewers, as long as there are any.
   void encode() {
+    give_way();
     constexpr double kLook_s = 0.5;
     std::uint64_t known = 0;
     while (!views.is_closed()) {
@@ -130,21 +157,13 @@ std::uint16_t GroundStation::port() const { return parts_->shared.page_port; }
 std::uint16_t GroundStation::command_port() const { return parts_->shared.command_port; }
 GroundDesk& GroundStation::desk() { return parts_->shared.desk; }
 
-std::string GroundStation::address() const {
-  const std::string& host = parts_->shared.options.host;
-  const bool is_ipv6 = host.find(':') != std::string::npos;
-  return "http://" + (is_ipv6 ? '[' + host + ']' : host) + ':' + std::to_string(port()) +
-         "/#token=" + parts_->shared.token.text();
-}
+std::string GroundStation::address() const { return address_of(parts_->shared); }
 
 Decision GroundStation::steered(Decision decision, const DecisionState& before) const {
   return parts_->shared.desk.steered(std::move(decision), before, parts_->shared.now_s());
 }
 
-GroundRefusals GroundStation::refusals() const {
-  const RefusalCounts& r = parts_->shared.refusals;
-  return {r.wrong_token, r.foreign, r.malformed, r.too_many, r.stale};
-}
+GroundRefusals GroundStation::refusals() const { return counted(parts_->shared.refusals); }
 
 void GroundStation::show(GroundView view) {
   auto shared_view = std::make_shared<const GroundView>(std::move(view));

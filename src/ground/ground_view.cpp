@@ -103,6 +103,16 @@ GroundView ground_view(const Frame& frame, const Step& step, const Template& mod
   return view;
 }
 
+TargetPose target_pose(const LoggedPose& logged) {
+  const double angle = logged.rotation_rad.norm();
+  TargetPose pose;
+  pose.translation = logged.translation_m;
+  if (angle > 0) {
+    pose.rotation = Eigen::AngleAxisd(angle, logged.rotation_rad / angle).toRotationMatrix();
+  }
+  return pose;
+}
+
 std::string json(const GroundView& view) {
   Json all;
   all["frame"] = view.row.frame;

@@ -49,7 +49,7 @@ void answer(const Reply& reply, FlightMode mode, Response& response) {
 bool admits_origin(Shared& shared, const Request& request, Response& response) {
   if (!request.has_header("Origin")) return true;  // no browser
   const std::string origin = request.get_header_value("Origin");
-  if (!is_own_origin(origin, request.get_header_value("Host"), shared.page_port)) {
+  if (!is_own_origin(origin, request.get_header_value("Host"), shared.page_port, scheme(shared))) {
     ++shared.refusals.foreign;
     say(response, 403, "commands are taken from the page of this program only");
     return false;
@@ -90,6 +90,10 @@ void take_command(Shared& shared, Rates& rates, const Request& request, Response
     ++shared.refusals.malformed;
     return say(response, 400, *why);
   }
+  if (!shared.options.view_only.empty()) {
+    ++shared.refusals.view_only;
+    return say(response, 409, shared.options.view_only);
+  }
   const auto& command = std::get<GroundCommand>(parsed);
   const double now_s = shared.now_s();
   if (!is_stop(command.ask) && !rates.of(command.ask).takes(now_s)) {
@@ -114,11 +118,16 @@ void take_preflight(Shared& shared, const Request& request, Response& response) 
 }  // namespace
 
 void serve_commands(httplib::Server& server, Shared& shared) {
+  count_refusals(server, shared);
   const auto rates = std::make_shared<Rates>(shared.options.commands_per_s);
   server.set_default_headers(
       {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}});
   server.Options("/command", [&shared](const Request& request, Response& response) {
     take_preflight(shared, request, response);
+  });
+  // A browser asks for each port of a self-signed certificate whether to trust it.
+  server.Get("/", [](const Request&, Response& response) {
+    response.set_content("Commands come in here. Close this and reload the page.\n", "text/plain");
   });
   server.Post("/command", [&shared, rates](const Request& request, Response& response) {
     take_command(shared, *rates, request, response);

@@ -14,17 +14,22 @@ using httplib::Request;
 using httplib::Response;
 
 /// Nothing from elsewhere, nothing inline, nothing but the stream and the commands to talk to.
-std::string content_policy(std::string_view host, std::uint16_t command_port) {
+std::string content_policy(const Shared& shared, std::string_view host) {
   return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-         "connect-src 'self' http://" +
-         std::string(host) + ':' + std::to_string(command_port) +
+         "connect-src 'self' " +
+         std::string(scheme(shared)) + "://" + std::string(host) + ':' +
+         std::to_string(shared.command_port) +
          "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
-std::string html_with_port(std::uint16_t command_port) {
-  constexpr std::string_view kPlace = "{{COMMAND_PORT}}";
+void put(std::string& html, std::string_view place, int number) {
+  html.replace(html.find(place), place.size(), std::to_string(number));
+}
+
+std::string filled_html(const Shared& shared) {
   std::string html(ground_html());
-  html.replace(html.find(kPlace), kPlace.size(), std::to_string(command_port));
+  put(html, "{{COMMAND_PORT}}", shared.command_port);
+  put(html, "{{RECORDED_RUNS}}", shared.recorded_runs);
   return html;
 }
 
@@ -35,8 +40,8 @@ void give_html(Shared& shared, const Request& request, Response& response) {
     ++shared.refusals.foreign;
     return say(response, 421, "call this machine by its number or localhost, not by another name");
   }
-  response.set_header("Content-Security-Policy", content_policy(host, shared.command_port));
-  response.set_content(html_with_port(shared.command_port), "text/html; charset=utf-8");
+  response.set_header("Content-Security-Policy", content_policy(shared, host));
+  response.set_content(filled_html(shared), "text/html; charset=utf-8");
 }
 
 Json velocities(const VelocityCommand& v) {
@@ -80,7 +85,8 @@ void give_stream(Shared& shared, const Request& request, Response& response) {
     ++shared.refusals.too_many;
     return say(response, 503, "too many viewers; close another page");
   }
-  const auto known = std::make_shared<std::uint64_t>(0);
+  // What was encoded for the last viewer may be minutes old: this one begins with the next frame.
+  const auto known = std::make_shared<std::uint64_t>(shared.frames.now().number);
   response.set_chunked_content_provider(
       "application/octet-stream", [&shared, seat, known](std::size_t, httplib::DataSink& sink) {
         return send_next(shared, *known, sink);
@@ -99,8 +105,12 @@ std::string desk_json(const Shared& shared) {
   for (const GroundEvent& e : s.events) {
     events.push_back({{"number", e.number}, {"stamp_s", e.stamp_s}, {"words", e.words}});
   }
-  const RefusalCounts& r = shared.refusals;
-  const long refused = r.wrong_token + r.foreign + r.malformed + r.too_many + r.stale;
+  long refused = 0;
+  Json refusals;
+  for (const auto& [word, count] : named(counted(shared.refusals))) {
+    refused += count;
+    refusals[word] = count;
+  }
   return Json{{"mode", name(s.mode)},
               {"commander", s.commander},
               {"asker", s.asker},
@@ -114,11 +124,14 @@ std::string desk_json(const Shared& shared) {
               {"facts", facts},
               {"events", events},
               {"viewers", shared.viewers.load()},
-              {"refused", refused}}
+              {"refused", refused},
+              {"refusals", refusals},
+              {"view_only", shared.options.view_only}}
       .dump();
 }
 
-void serve_page(httplib::Server& server, Shared& shared) {
+void serve_files(httplib::Server& server, Shared& shared) {
+  count_refusals(server, shared);
   server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"},
                               {"Cache-Control", "no-store"},
@@ -132,6 +145,15 @@ void serve_page(httplib::Server& server, Shared& shared) {
   server.Get("/ground.js", [](const Request&, Response& response) {
     response.set_content(std::string(ground_script()), "text/javascript; charset=utf-8");
   });
+  server.Get("/status", [&shared](const Request& request, Response& response) {
+    if (lets_in(shared, request, response)) {
+      response.set_content(desk_json(shared), "application/json");
+    }
+  });
+}
+
+void serve_page(httplib::Server& server, Shared& shared) {
+  serve_files(server, shared);
   server.Get("/stream", [&shared](const Request& request, Response& response) {
     give_stream(shared, request, response);
   });

@@ -7,13 +7,12 @@
 #include <string>
 #include <thread>
 
-#include <httplib.h>
-#undef _res  // a macro of resolv.h; Eigen has a name of that kind
-
 #include "kestrel/ground/access_token.hpp"
 #include "kestrel/ground/ground_station.hpp"
 #include "kestrel/ground/latest_value.hpp"
 #include "kestrel/link/token_bucket.hpp"
+
+#include "guarded_server.hpp"
 
 // The two servers behind GroundStation.
 namespace kestrel {
@@ -25,13 +24,18 @@ struct RefusalCounts {
   std::atomic<long> malformed{0};
   std::atomic<long> too_many{0};
   std::atomic<long> stale{0};
+  std::atomic<long> no_place{0};
+  std::atomic<long> view_only{0};
+  ConnectionCounts connections;
 };
+
+/// As they stand.
+GroundRefusals counted(const RefusalCounts& counts);
 
 /// A server and the thread it listens in. Stops and joins where it ends.
 class HttpServer {
  public:
-  /// threads: how many connections are served at a time; longer ones wait.
-  explicit HttpServer(std::size_t threads);
+  HttpServer(GuardedOptions options, ConnectionCounts& counts);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
@@ -43,7 +47,7 @@ class HttpServer {
   void stop();
 
  private:
-  httplib::Server server_;
+  GuardedServer server_;
   std::thread thread_;
 };
 
@@ -62,15 +66,31 @@ struct Shared {
   std::atomic<int> viewers{0};
   std::atomic<std::uint16_t> page_port{0};
   std::atomic<std::uint16_t> command_port{0};
+  const int recorded_runs = 0;  // shown instead of a flight
 };
 
 /// Answers 421 to a host that is no number and 401 without the token; true when neither was.
 bool lets_in(Shared& shared, const httplib::Request& request, httplib::Response& response);
 
+/// "http" or "https".
+const char* scheme(const Shared& shared);
+
+/// What both servers are made of: so many connections at a time, and who is trusted.
+GuardedOptions guarded(Shared& shared, std::size_t threads);
+
+/// Counts what is asked for and is not there.
+void count_refusals(httplib::Server& server, Shared& shared);
+
 /// Answers with one sentence in JSON: {"words": ...}.
 void say(httplib::Response& response, int status, const std::string& words);
 
-/// Page, scripts and streams.
+/// The page's address, with the token.
+std::string address_of(const Shared& shared);
+
+/// Page, style and script, and /status.
+void serve_files(httplib::Server& server, Shared& shared);
+
+/// Those, and streams.
 void serve_page(httplib::Server& server, Shared& shared);
 
 /// Commands.
@@ -78,7 +98,7 @@ void serve_commands(httplib::Server& server, Shared& shared);
 
 /// How the desk stands, JSON: mode, commander, asker, gain_per_s, most_gain_per_s, speed,
 /// most_speed, law, laws, sent (commands, zeros, failures), facts (pairs of words), events,
-/// viewers, refused.
+/// viewers, refused, refusals (each of GroundRefusals), view_only.
 std::string desk_json(const Shared& shared);
 
 }  // namespace kestrel

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,6 @@ namespace kestrel {
 namespace {
 
 constexpr int kSendBuffer = 128 << 10;  // what a slow viewer is behind by, besides one frame
-constexpr time_t kPatience_s = 2;       // a viewer that takes nothing for longer is let go
 
 /// Not SO_REUSEPORT, the library's own choice: two programs would share a port in silence.
 void set_socket_options(socket_t socket) {
@@ -22,15 +22,10 @@ void set_socket_options(socket_t socket) {
 
 }  // namespace
 
-HttpServer::HttpServer(std::size_t threads) {
-  server_.new_task_queue = [threads] { return new httplib::ThreadPool(threads); };
+HttpServer::HttpServer(GuardedOptions options, ConnectionCounts& counts)
+    : server_(std::move(options), counts) {
   server_.set_socket_options(set_socket_options);
   server_.set_tcp_nodelay(true);
-  server_.set_write_timeout(kPatience_s);
-  server_.set_read_timeout(kPatience_s);
-  // One request a connection: an idle one would hold a thread.
-  server_.set_keep_alive_max_count(1);
-  server_.set_keep_alive_timeout(1);
   server_.set_payload_max_length(kMaxCommandBytes);
 }
 
@@ -48,6 +43,7 @@ std::uint16_t HttpServer::listen(const std::string& host, std::uint16_t port) {
                              std::to_string(port) +
                              ": it is taken, or not of this machine; give another --ground PORT");
   }
+  server_.widen_queue();
   thread_ = std::thread([this] { server_.listen_after_bind(); });
   while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return std::uint16_t(bound);
@@ -55,8 +51,45 @@ std::uint16_t HttpServer::listen(const std::string& host, std::uint16_t port) {
 
 void HttpServer::stop() {
   if (!thread_.joinable()) return;
+  server_.cut_all();
   server_.stop();
   thread_.join();
+}
+
+const char* scheme(const Shared& shared) { return shared.options.tls ? "https" : "http"; }
+
+std::string address_of(const Shared& shared) {
+  const std::string& host = shared.options.host;
+  const bool is_ipv6 = host.find(':') != std::string::npos;
+  return scheme(shared) + std::string("://") + (is_ipv6 ? '[' + host + ']' : host) + ':' +
+         std::to_string(shared.page_port) + "/#token=" + shared.token.text();
+}
+
+GuardedOptions guarded(Shared& shared, std::size_t threads) {
+  ConnectionLimits limits;
+  limits.request_s = shared.options.request_s;
+  return {threads, [] {}, limits, shared.options.tls,
+          [&shared](const httplib::Request& request) {
+            return shared.token.is_shown_by(request.get_header_value("Authorization"));
+          }};
+}
+
+void count_refusals(httplib::Server& server, Shared& shared) {
+  const httplib::Server::HandlerWithResponse count = [&shared](const httplib::Request&,
+                                                               httplib::Response& response) {
+    constexpr int kNotFound = 404;
+    if (response.status == kNotFound) ++shared.refusals.no_place;
+    return httplib::Server::HandlerResponse::Unhandled;
+  };
+  server.set_error_handler(count);
+}
+
+GroundRefusals counted(const RefusalCounts& r) {
+  const ConnectionCounts& c = r.connections;
+  return {r.wrong_token, r.foreign,  r.malformed + c.malformed,
+          r.too_many,    r.stale,    c.slow,
+          c.huge,        c.crowded,  r.no_place,
+          c.no_tls,      r.view_only};
 }
 
 void say(httplib::Response& response, int status, const std::string& words) {

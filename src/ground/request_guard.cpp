@@ -37,12 +37,21 @@ std::string_view plain_host(std::string_view host_header) {
   return host == "localhost" || is_number(host) ? host : std::string_view{};
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host_header, std::uint16_t page_port) {
+bool is_own_origin(std::string_view origin, std::string_view host_header, std::uint16_t page_port,
+                   std::string_view scheme) {
   const std::string_view host = plain_host(host_header);
   if (host.empty()) return false;
-  const std::string own = "http://" + std::string(host) + ':' + std::to_string(page_port);
-  // A browser leaves out the port that http has anyway.
-  return origin == own || (page_port == 80 && origin == own.substr(0, own.size() - 3));
+  const std::string without_port = std::string(scheme) + "://" + std::string(host);
+  // A browser leaves out the port that the scheme has anyway.
+  const std::uint16_t own_port = scheme == "https" ? 443 : 80;
+  return origin == without_port + ':' + std::to_string(page_port) ||
+         (page_port == own_port && origin == without_port);
+}
+
+bool is_loopback(std::string_view host) {
+  if (host == "localhost" || host == "::1") return true;
+  // A name could begin like a number: 127.evil.example.
+  return host.substr(0, 4) == "127." && consists_of(host, "0123456789.");
 }
 
 }  // namespace kestrel

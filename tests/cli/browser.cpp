@@ -20,7 +20,9 @@ Json capabilities() {
   const Json options{{"args",
                       {"--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                        "--window-size=1400,1100"}}};
-  return {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", options}}}}}};
+  // Tests meet certificates that were made a moment ago.
+  return {{"capabilities",
+           {{"alwaysMatch", {{"goog:chromeOptions", options}, {"acceptInsecureCerts", true}}}}}};
 }
 
 Json pointer(const char* type, int x, int y) {

@@ -150,6 +150,24 @@ TEST_F(Station, APictureComesWithItsOwnNumbers) {
   EXPECT_EQ(seen, 3);
 }
 
+TEST_F(Station, ANewViewerIsNotShownWhatTheOneBeforeItLeft) {
+  std::int64_t number = 0;
+  client_.watch([](const StreamFrame& frame) { return frame.jpeg.empty(); },
+                [&] { station_->show(view(++number)); });
+  const std::int64_t left_at = number;
+  std::int64_t first = 0;
+  StationClient(*station_, token_)
+      .watch(
+          [&](const StreamFrame& frame) {
+            const Json words = Json::parse(frame.json);
+            if (!words.contains("view")) return true;
+            first = words["view"]["frame"];
+            return false;
+          },
+          [&] { station_->show(view(++number)); });
+  EXPECT_GT(first, left_at);
+}
+
 TEST_F(Station, MoreStreamsThanThereAreSeatsAreRefused) {
   GroundOptions options;
   options.max_streams = 1;

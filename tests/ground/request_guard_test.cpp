@@ -32,5 +32,22 @@ TEST(RequestGuard, OnlyThePageItselfMayCommand) {
   EXPECT_FALSE(is_own_origin("", "127.0.0.1:8081", 8080));
 }
 
+TEST(RequestGuard, APageOverTlsIsAnotherThanOneWithout) {
+  EXPECT_TRUE(is_own_origin("https://127.0.0.1:8080", "127.0.0.1:8081", 8080, "https"));
+  EXPECT_TRUE(is_own_origin("https://10.0.0.2", "10.0.0.2:444", 443, "https"));
+  EXPECT_FALSE(is_own_origin("https://10.0.0.2", "10.0.0.2:444", 80, "https"));
+  EXPECT_FALSE(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8081", 8080, "https"));
+}
+
+TEST(RequestGuard, OnlyThisMachineReachesALoopbackAddress) {
+  for (const char* own : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) {
+    EXPECT_TRUE(is_loopback(own)) << own;
+  }
+  for (const char* other : {"0.0.0.0", "::", "10.0.0.2", "192.168.127.1", "127.evil.example", "",
+                            "localhost.example"}) {
+    EXPECT_FALSE(is_loopback(other)) << other;
+  }
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -34,6 +34,8 @@ class StationClient {
     return answer ? *answer : httplib::Response{};
   }
 
+  Json status() { return Json::parse(page_.Get("/status", {{"Authorization", bearer_}})->body); }
+
   std::string join() { return Json::parse(post(R"({"do":"join"})").body)["client"]; }
 
   int preflight(const std::string& origin) {

@@ -17,7 +17,7 @@ namespace kestrel {
 struct GroundView {
   LogRow row;
   cv::Mat gray;                         // of its own, not shared with the source of the frames
-  std::array<Pixel, 4> goal_corners{};  // of the target, where the goal wants them, px
+  std::array<Pixel, 4> goal_corners{};  // where the goal wants the target's, px; NaN: no goal
   std::vector<Pixel> inliers;           // places of the keypoints that agree, px
   std::optional<TargetPose> seen;       // camera_from_target, the camera levelled; when seen
   FlightScene scene{};
@@ -33,6 +33,9 @@ GroundView ground_view(const Frame& frame, const Step& step, const Template& mod
 /// place (what Task::goal is); as it is without an attitude.
 TargetPose levelled(const TargetPose& camera_from_target, const std::optional<Attitude>& attitude,
                     const Mount& body_from_camera);
+
+/// A pose as the log keeps it, camera_from_target.
+TargetPose target_pose(const LoggedPose& logged);
 
 /// A viewer's words of the frame, a JSON object: frame, stamp_s, size_px, status, miss, confidence,
 /// corners, predicted, window, goal, inliers, state, errors, error_norm, condition, twist, wanted,

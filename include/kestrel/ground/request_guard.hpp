@@ -14,7 +14,12 @@ namespace kestrel {
 std::string_view plain_host(std::string_view host_header);
 
 /// True when a request was made by the page that this program serves: the header Origin (RFC 6454)
-/// is "http://", the host of the header Host, and the page's port. False for none.
-bool is_own_origin(std::string_view origin, std::string_view host_header, std::uint16_t page_port);
+/// is the scheme ("http" or "https"), "://", the host of the header Host, and the page's port.
+/// False for none.
+bool is_own_origin(std::string_view origin, std::string_view host_header, std::uint16_t page_port,
+                   std::string_view scheme = "http");
+
+/// True for a host that only this machine reaches: 127.x.x.x, ::1, localhost (RFC 5735, RFC 4291).
+bool is_loopback(std::string_view host);
 
 }  // namespace kestrel

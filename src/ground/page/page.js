@@ -17,7 +17,8 @@ const kMode = { hover: ["Hover: zero velocity", "so"], servo: ["Servoing", "ok"]
 function showDesk(next) {
   desk = next;
   const [words, colour] = kMode[desk.mode];
-  badge("mode", words, colour);
+  badge("mode", desk.view_only || words, desk.view_only ? "so" : colour);
+  document.body.classList.toggle("view_only", desk.view_only !== "");
   const mine = commanding();
   at("take").hidden = mine;
   at("release").hidden = !mine;
@@ -80,7 +81,7 @@ function showNumbers(view, words) {
     "Error": view.error_norm === null ? "–" : view.error_norm.toFixed(4),
     "Condition": view.condition === null ? "–" : view.condition.toFixed(0),
     "Found by": view.stage,
-    "Chain": view.chain_ms.toFixed(1) + " ms",
+    "Chain": view.chain_ms === null ? "–" : view.chain_ms.toFixed(1) + " ms",
     "Behind": words.encode_ms.toFixed(0) + " ms in the program",
     "Command": desk.commander === "" ? "nobody" : commanding() ? "this page" : "another page",
     "Viewers": desk.viewers + (desk.refused ? `, ${desk.refused} requests refused` : ""),
@@ -292,7 +293,7 @@ async function enter(next) {
   at("station").hidden = false;
   for (;;) {
     try {
-      await readStream(token, showFrame);
+      await Replay.watch(token, showFrame);
     } catch (error) {
       if (error.message === "token") { sessionStorage.removeItem("token"); return askToken(); }
       Sticks.letAllGo();
