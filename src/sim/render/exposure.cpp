@@ -51,14 +51,16 @@ void Exposure::expose(const TileLight& light, std::size_t views, const Tile& til
   Sensor sensor = sensor_;
   sensor.gain /= float(views);
   sensor.loss /= float(views);
+  std::uint8_t* const corner = picture.ptr(tile.v) + tile.u;
   const int count = picture.cols - tile.u;
-  std::array<std::uint8_t, kRun> grey;
+  if (count >= kRun) {
+    return sense_(sensor, light.data(),
+                  {tile.u, tile.v, tile.rows, corner, std::ptrdiff_t(picture.step[0])});
+  }
+  std::array<std::uint8_t, kTilePixels> grey;
+  sense_(sensor, light.data(), {tile.u, tile.v, tile.rows, grey.data(), kRun});
   for (int row = 0; row < tile.rows; ++row) {
-    const int v = tile.v + row;
-    const float* const in = &light[begin_of_row(row)];
-    std::uint8_t* const out = picture.ptr(v) + tile.u;
-    sense_(sensor, in, tile.u, v, count < kRun ? grey.data() : out);
-    if (count < kRun) std::copy_n(grey.begin(), count, out);
+    std::copy_n(&grey[begin_of_row(row)], count, picture.ptr(tile.v + row) + tile.u);
   }
 }
 

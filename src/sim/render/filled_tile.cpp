@@ -58,22 +58,22 @@ void add_filled(const View& view, const SeenPlane& plane, const Rays& rays, cons
   }
 }
 
-std::optional<Reading> reading_in_motion(const std::vector<View>& views, const Rays& rays,
+std::optional<Reading> reading_in_motion(const View* first, std::size_t count, const Rays& rays,
                                          const Tile& tile) {
   const auto corners = rays.corners(tile);
   const int u = middle_column(rays, tile);
   const int v = tile.v + tile.rows / 2;
   const SeenPlane* middle = nullptr;
   std::vector<Eigen::Vector2f> places;
-  for (const View& view : views) {
-    const SeenPlane* const plane = even_front(view, corners);
+  for (std::size_t i = 0; i < count; ++i) {
+    const SeenPlane* const plane = even_front(first[i], corners);
     if (!plane || (middle && middle->texture != plane->texture)) return std::nullopt;
-    if (!middle || places.size() == views.size() / 2) middle = plane;
+    if (i <= count / 2) middle = plane;
     const Eigen::Vector3f at = plane->texture_from_ray * rays.ray(u, v);
     places.emplace_back(at.head<2>() / at.z());
   }
   const Spread all = spread(places);
-  return spread_reading(shifted(*middle, all.mean - places[views.size() / 2]),
+  return spread_reading(shifted(*middle, all.mean - places[count / 2]),
                         footprint_at(*middle, rays, u, v), all.covariance);
 }
 

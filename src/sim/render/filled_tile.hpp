@@ -18,7 +18,7 @@ void add_filled(const View& view, const SeenPlane& plane, const Rays& rays, cons
 /// How a tile that one plane fills in all views is read at once: in the middle of its motion, each
 /// pixel spread by the variance of where the views see it, so that the blur is that of their mean
 /// up to its second moment. Empty for another tile, and for motion that a tap does not span.
-std::optional<Reading> reading_in_motion(const std::vector<View>& views, const Rays& rays,
+std::optional<Reading> reading_in_motion(const View* first, std::size_t count, const Rays& rays,
                                          const Tile& tile);
 
 }  // namespace kestrel::sim_detail

@@ -12,8 +12,9 @@ constexpr float kNearlyAlong = 1e-4f;
 
 /// How a plane's texture is read.
 struct Reading {
-  const std::uint8_t* texels = nullptr;  // with what lies around the place (0, 0)
-  std::int32_t stride = 0;               // bytes
+  /// The four bytes around the place (0, 0), or sixteen, column by column, where a tap has a width.
+  const std::uint8_t* texels = nullptr;
+  std::int32_t stride = 0;  // bytes
   float last_s = 0;  // places are held to [0, last]: between the first value and the last one
   float last_t = 0;
   float place_from_ray[9] = {};  // (s, t, 1) / depth of a ray (x, y, 1), row by row
@@ -50,8 +51,17 @@ struct Sensor {
   std::uint32_t seed_high = 0;
 };
 
-/// Grey levels of the sixteen pixels from (u, v) on, u a multiple of sixteen, of their light.
-using Sense = void (*)(const Sensor& sensor, const float* light, int u, int v, std::uint8_t* grey);
+/// Where grey levels go: rows of sixteen pixels, from (u, v) on, u a multiple of sixteen.
+struct Patch {
+  int u;
+  int v;
+  int rows;
+  std::uint8_t* grey;
+  std::ptrdiff_t stride;  // bytes from row to row
+};
+
+/// Grey levels of the pixels whose light is light[16 row + k].
+using Sense = void (*)(const Sensor& sensor, const float* light, const Patch& patch);
 
 /// One of the two copies.
 struct Kernels {
@@ -61,8 +71,8 @@ struct Kernels {
 
 void add_mean_light_avx2(const Reading&, const float*, int, float*);
 void add_mean_light_baseline(const Reading&, const float*, int, float*);
-void sense_avx2(const Sensor&, const float*, int, int, std::uint8_t*);
-void sense_baseline(const Sensor&, const float*, int, int, std::uint8_t*);
+void sense_avx2(const Sensor&, const float*, const Patch&);
+void sense_baseline(const Sensor&, const float*, const Patch&);
 
 inline Kernels kernels(bool avx2) {
   return avx2 ? Kernels{add_mean_light_avx2, sense_avx2}

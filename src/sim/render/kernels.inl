@@ -10,7 +10,7 @@ constexpr int kPixels = 16;                   // of a run
 constexpr std::ptrdiff_t kFloatsOfARun = 32;  // x and y
 
 template <Floats (*Tap)(const Reading&, Floats, Floats)>
-inline Floats mean_of_taps(const Reading& r, Floats s, Floats t) {
+KESTREL_INLINE Floats mean_of_taps(const Reading& r, Floats s, Floats t) {
   if (r.across == 1 && r.down == 1) return Tap(r, s, t);
   Floats sum{};
   for (int j = 0; j < r.down; ++j) {
@@ -54,26 +54,51 @@ inline Floats normal(const float* quantiles, Words bits) {
                 quantiles[at[4]], quantiles[at[5]], quantiles[at[6]], quantiles[at[7]]};
 }
 
+/// Sixteen numbers from 0 to 255.
+inline void store_bytes(Ints a, Ints b, std::uint8_t* to) {
+#ifdef __AVX2__
+  const __m256i halves = _mm256_packs_epi32(__m256i(a), __m256i(b));
+  const __m256i words = _mm256_permute4x64_epi64(halves, 0xd8);
+  const __m128i bytes =
+      _mm_packus_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1));
+#else
+  __m128i parts[4];
+  __builtin_memcpy(parts, &a, sizeof a);
+  __builtin_memcpy(parts + 2, &b, sizeof b);
+  const __m128i bytes =
+      _mm_packus_epi16(_mm_packs_epi32(parts[0], parts[1]), _mm_packs_epi32(parts[2], parts[3]));
+#endif
+  __builtin_memcpy(to, &bytes, sizeof bytes);
+}
+
 }  // namespace
 
 void KERNEL(add_mean_light)(const Reading& r, const float* rays, int rows, float* light) {
   if (!(r.width_s > 0)) return add<bilinear>(r, rays, rows, light);
-  if (r.width_t > 1) return add<smooth>(r, rays, rows, light);
-  add<smooth_low>(r, rays, rows, light);
+  add<smooth>(r, rays, rows, light);
 }
 
-void KERNEL(sense)(const Sensor& sensor, const float* light, int u, int v, std::uint8_t* grey) {
+void KERNEL(sense)(const Sensor& sensor, const float* light, const Patch& patch) {
+  const Sensor s = sensor;
   const Ints lane{0, 1, 2, 3, 4, 5, 6, 7};
-  const float y = float(v) - sensor.centre_v;
-  Words bits = Words(lane + u) + std::uint32_t(v) * kMostColumns;
-  bits = scrambled(bits ^ sensor.seed_low, sensor.seed_high);
-  for (int k = 0; k < kPixels; k += kLanes, bits >>= 16) {
-    const Floats x = __builtin_convertvector(lane + (u + k), Floats) - sensor.centre_u;
-    Floats value = load(light + k) * (sensor.gain - sensor.loss * (x * x + y * y));
-    if (sensor.noise_grey > 0) value += sensor.noise_grey * normal(sensor.quantiles, bits);
-    const Ints rounded_value = __builtin_convertvector(smaller(larger(value + 0.5f, 0), 255), Ints);
-    const Bytes bytes = __builtin_convertvector(rounded_value, Bytes);
-    __builtin_memcpy(grey + k, &bytes, sizeof bytes);
+  const Floats x_left = __builtin_convertvector(lane + patch.u, Floats) - s.centre_u;
+  const Floats x_right = x_left + kLanes;
+  const Floats left = s.gain - s.loss * (x_left * x_left);
+  const Floats right = s.gain - s.loss * (x_right * x_right);
+  std::uint8_t* grey = patch.grey;
+  for (int row = 0; row < patch.rows; ++row, grey += patch.stride, light += kPixels) {
+    const int v = patch.v + row;
+    const float y = float(v) - s.centre_v;
+    const float loss = s.loss * (y * y);
+    Floats a = load(light) * (left - loss);
+    Floats b = load(light + kLanes) * (right - loss);
+    if (s.noise_grey > 0) {
+      const Words pixel = Words(lane + patch.u) + std::uint32_t(v) * kMostColumns;
+      const Words bits = scrambled(pixel ^ s.seed_low, s.seed_high);
+      a += s.noise_grey * normal(s.quantiles, bits);
+      b += s.noise_grey * normal(s.quantiles, bits >> 16);
+    }
+    store_bytes(rounded(smaller(larger(a, 0), 255)), rounded(smaller(larger(b, 0), 255)), grey);
   }
 }
 

@@ -27,7 +27,11 @@ int scale_count(cv::Size texture) {
 
 Level sharp_level(const cv::Mat& texture) {
   Level level;
-  cv::copyMakeBorder(texture, level.grey, 1, 2, 1, 2, cv::BORDER_REPLICATE);
+  cv::Mat padded;
+  cv::copyMakeBorder(texture, padded, 1, 2, 1, 2, cv::BORDER_REPLICATE);
+  std::vector<cv::Mat> rows;
+  for (int i = 0; i < 4; ++i) rows.push_back(padded.rowRange(i, i + texture.rows));
+  cv::merge(rows, level.grey);
   level.first = 0.5;
   level.last_s = float(texture.cols - 1);
   level.last_t = float(texture.rows - 1);

@@ -10,7 +10,10 @@ namespace kestrel::sim_detail {
 
 /// The texture at one scale, ready to be read.
 struct Level {
-  cv::Mat grey;           // its edge repeated, so that what is read beyond needs no test
+  /// Its edge repeated, so that what is read beyond needs no test. Of the texture itself each
+  /// element is a column of four texels, from the one above on: the 4x4 around a place lie in one
+  /// piece.
+  cv::Mat grey;
   float per_texel_s = 1;  // texels of this level per texel of the texture
   float per_texel_t = 1;
   float first = 0;   // where the first value lies: 0.5 in a texel's centre, 0 on the outer edge
@@ -28,8 +31,7 @@ class Pyramid {
   float width() const { return float(texture_.cols); }  // texels
   float height() const { return float(texture_.rows); }
 
-  /// The texture itself, with one texel more to the left and above, two to the right and below: 4x4
-  /// texels around each place.
+  /// The texture itself.
   const Level& sharp() const { return sharp_; }
 
   /// Means over 2x2 texels: of the texture for level 0, each next one 2^(1/4) coarser. One bilinear

@@ -131,18 +131,26 @@ void add_view(const View& view, const Rays& rays, const Tile& tile, TileLight& s
   }
 }
 
+/// Adds consecutive views: at once where the motion from the first to the last is small, else the
+/// two halves of them.
+void add_views(const View* first, std::size_t count, const Rays& rays, const Tile& tile,
+               TileLight& sum) {
+  if (count == 1) return add_view(*first, rays, tile, sum);
+  if (const std::optional<Reading> reading = reading_in_motion(first, count, rays, tile)) {
+    TileLight mean{};
+    first->add_mean_light(*reading, rays.run(tile.u, tile.v), tile.rows, mean.data());
+    for (std::size_t k = 0; k < mean.size(); ++k) sum[k] += float(count) * mean[k];
+    return;
+  }
+  add_views(first, count / 2, rays, tile, sum);
+  add_views(first + count / 2, count - count / 2, rays, tile, sum);
+}
+
 }  // namespace
 
 TileLight sum_of_views(const std::vector<View>& views, const Rays& rays, const Tile& tile) {
   TileLight sum{};
-  if (views.size() > 1) {
-    if (const std::optional<Reading> reading = reading_in_motion(views, rays, tile)) {
-      views.front().add_mean_light(*reading, rays.run(tile.u, tile.v), tile.rows, sum.data());
-      for (float& light : sum) light *= float(views.size());
-      return sum;
-    }
-  }
-  for (const View& view : views) add_view(view, rays, tile, sum);
+  add_views(views.data(), views.size(), rays, tile, sum);
   return sum;
 }
 

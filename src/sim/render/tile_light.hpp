@@ -10,7 +10,8 @@
 namespace kestrel::sim_detail {
 
 /// Grey levels, row by row.
-using TileLight = std::array<float, std::size_t(kRun) * kRun>;
+constexpr std::size_t kTilePixels = std::size_t(kRun) * kRun;
+using TileLight = std::array<float, kTilePixels>;
 
 /// Where a row of them begins.
 constexpr std::size_t begin_of_row(int row) { return std::size_t(row) * kRun; }
