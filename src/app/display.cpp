@@ -14,8 +14,8 @@ namespace {
 const DisplayModule& display_module() {
   if (!has_display()) {
     throw std::runtime_error(
-        "no display: DISPLAY is not set; run without --display and give the "
-        "template with --roi x,y,w,h");
+        "no display: DISPLAY is not set; run without --display, and where a template is "
+        "wanted give it with --roi x,y,w,h");
   }
   return module_functions<DisplayModule>("display");
 }

@@ -11,6 +11,7 @@
 
 #include "kestrel/io/live_camera.hpp"
 
+#include "cli/rtsp_server.hpp"
 #include "cli/video_sender.hpp"
 #include "support/temp_folder.hpp"
 
@@ -27,6 +28,8 @@ struct Way {
   std::string name;
   std::string address;
   std::vector<std::string> output;
+  int rtsp_port = 0;  // where an RtspServer is wanted, and which port FFmpeg feeds it at
+  int feed_port = 0;
 };
 
 std::string write_sdp(const test::TempFolder& folder, int port) {
@@ -57,6 +60,10 @@ std::vector<Way> ways(const test::TempFolder& folder) {
   const std::string http = "http://" + host + std::to_string(test::free_port()) + "/video";
   all.push_back(
       {"http, MJPEG", http, {"-c:v", "mjpeg", "-q:v", "3", "-f", "mpjpeg", "-listen", "1", http}});
+  const int rtsp = test::free_port();
+  const int feed = test::free_port();
+  all.push_back({"rtsp, MPEG-TS", "rtsp://" + host + std::to_string(rtsp) + "/video",
+                 test::mpeg_over_udp(feed), rtsp, feed});
   return all;
 }
 
@@ -119,6 +126,8 @@ class Streams : public ::testing::TestWithParam<int> {};
 TEST_P(Streams, ComeBackWhateverTheSenderDoes) {
   const test::TempFolder folder;
   const Way way = ways(folder).at(std::size_t(GetParam()));
+  std::unique_ptr<test::RtspServer> server;
+  if (way.rtsp_port > 0) server = std::make_unique<test::RtspServer>(way.rtsp_port, way.feed_port);
   std::unique_ptr<VideoSender> sender;
 
   std::thread late([&] {
@@ -165,7 +174,7 @@ TEST_P(Streams, ComeBackWhateverTheSenderDoes) {
       int(source.status().connections));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::Range(0, 5));
 
 }  // namespace
 }  // namespace kestrel

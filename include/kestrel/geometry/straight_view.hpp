@@ -13,13 +13,13 @@ struct StraightView {
   Camera camera;  // the same K, no distortion
 };
 
-/// The view of a template of this size (px) that was tracked through a lens. Through a lens a plane's
-/// view is no homography: the tracked one is the nearest to it over the template, off by up to some
-/// pixels, most at the corners. So points all over the template are taken by it into the image, as
-/// far as they lie in it, their lens is removed, and a homography is fitted to those: what the first
-/// fit leaves over is not in its span, and cancels to first order. Without a lens: what was
-/// given, to the bit. Empty when fewer than a quarter of the points can be seen, or no homography
-/// fits them.
+/// The view of a template of this size (px) that was tracked through a lens. Through a lens a
+/// plane's view is no homography: the tracked one is the nearest to it over the template, off by up
+/// to some pixels, most at the corners. So points all over the template are taken by it into the
+/// image, as far as they lie in it, their lens is removed, and a homography is fitted to those:
+/// what the first fit leaves over is not in its span, and cancels to first order. Without a lens:
+/// what was given, to the bit. Empty when fewer than a quarter of the points can be seen, or no
+/// homography fits them.
 std::optional<StraightView> straight_view(const Homography& image_from_template, double width_px,
                                           double height_px, const Camera& camera);
 
