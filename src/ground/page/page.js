@@ -74,7 +74,7 @@ function showNumbers(view, words) {
   const rows = {
     "Frame": view.frame + ", " + view.stamp_s.toFixed(2) + " s",
     "Distance": view.distance_m === null ? "–" : view.distance_m.toFixed(2) + " m",
-    "Command rests on": view.state || "–",
+    "Command rests on": desk.mode === "sticks" ? "a hand" : view.state || "–",
     "Sent": v(view.sent) + "  m/s, rad/s",
     "The law wants": v(view.wanted),
     "Most allowed": v(desk.speed),

@@ -21,6 +21,10 @@ const Sticks = (() => {
   }
   function velocity() { return share().map((x, i) => x * fly.desk().speed[i]); }
 
+  function why() {  // nothing goes out
+    if (!at("dead_man").disabled) return "nothing, let go";
+    return fly.commanding() ? "nothing: reset after the abort first" : "nothing: take the command first";
+  }
   function show() {
     const s = share(), held = timer !== null;
     const knob = (id, x, y) => { at(id).setAttribute("cx", 50 + 36 * x); at(id).setAttribute("cy", 50 - 36 * y); };
@@ -30,7 +34,7 @@ const Sticks = (() => {
     at("dead_man").setAttribute("aria-pressed", String(holders.size > 0));
     if (!fly || !fly.desk()) return;
     const v = velocity();
-    const words = held ? `${v[0].toFixed(2)}  ${v[1].toFixed(2)}  ${v[2].toFixed(2)} m/s,  ${(v[3] * 180 / Math.PI).toFixed(0)} deg/s` : "let go";
+    const words = held ? `${v[0].toFixed(2)}  ${v[1].toFixed(2)}  ${v[2].toFixed(2)} m/s,  ${(v[3] * 180 / Math.PI).toFixed(0)} deg/s` : why();
     if (at("sticks_asked").textContent !== words) at("sticks_asked").textContent = words;
   }
 
