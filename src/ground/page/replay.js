@@ -3,6 +3,7 @@
 const Replay = (() => {
   const count = Number(document.querySelector('meta[name="recorded-runs"]').content);
   const kBatch = 30, kKept = 240, kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4, 8];
+  if (count > 0) document.body.classList.add("view_only");
   const caches = [new Map(), new Map()];
   let token = "", runs = null, shown = 0, now_s = 0, playing = false, speed = 1, dirty = true, fetching = null;
 
