@@ -50,8 +50,8 @@ class RunRecorder {
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Records a frame, whose picture is drawn only if it is kept or shown. badness: larger is a worse
-  /// frame (for the contact sheet). False once the user has closed the window.
+  /// Records a frame, whose picture is drawn only if it is kept or shown. badness: larger is a
+  /// worse frame (for the contact sheet). False once the user has closed the window.
   bool record(const LogRow& row, const std::function<cv::Mat()>& draw, double badness,
               StageTimes times);
 

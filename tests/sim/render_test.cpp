@@ -31,6 +31,16 @@ Camera small_camera() {
   return Camera(p);
 }
 
+/// The middle of the small camera's picture, for what is costly to know.
+Camera middle_camera() {
+  CameraParameters p = small_camera().parameters();
+  p.width = 48;
+  p.height = 32;
+  p.u0 = 23.7;
+  p.v0 = 15.6;
+  return Camera(p);
+}
+
 Camera distorted_camera() {
   CameraParameters p;
   p.width = 72;
@@ -187,13 +197,12 @@ TEST(Render, NearbyTextureIsItsMeanOverEachPixel) {
   const Scene scene = on_wall(poster(160, 120, 3), 2, 1.5, 128);
   for (const double texels : {0.2, 0.5, 0.9, 1.3, 1.8}) {  // per pixel
     const CameraPose pose = looking({0, 0, 0}, texels * 121 / 80, 0.003, -0.004);
-    const cv::Mat view = render(scene, small_camera(), pose);
+    const cv::Mat view = render(scene, middle_camera(), pose);
     cv::Mat difference;
-    cv::subtract(view, test::supersampled_view(scene, small_camera(), pose, 16), difference,
+    cv::subtract(view, test::supersampled_view(scene, middle_camera(), pose, 10), difference,
                  cv::noArray(), CV_32F);
-    const cv::Rect within(64 - 30, 48 - 22, 60, 44);  // of the plane at the farthest
-    EXPECT_LT(cv::norm(difference(within), cv::NORM_INF), 1.2) << texels;
-    EXPECT_NEAR(cv::mean(difference(within))[0], 0, 0.1) << texels;
+    EXPECT_LT(cv::norm(difference, cv::NORM_INF), 1.2) << texels;
+    EXPECT_NEAR(cv::mean(difference)[0], 0, 0.1) << texels;
   }
 }
 
@@ -207,11 +216,11 @@ TEST(Render, NearbyTextureIsNearItsMeanHoweverItIsTurned) {
                                                                  rotation_from_vector({0, 0, turn}),
                                                              {0, 0, 2}}
                                                       .inverse();
-      const cv::Mat view = render(scene, small_camera(), pose);
+      const cv::Mat view = render(scene, middle_camera(), pose);
       cv::Mat difference;
-      cv::subtract(view, test::supersampled_view(scene, small_camera(), pose, 8), difference,
+      cv::subtract(view, test::supersampled_view(scene, middle_camera(), pose, 8), difference,
                    cv::noArray(), CV_32F);
-      const cv::Mat within = difference(cv::Rect(64 - 24, 48 - 12, 48, 24));
+      const cv::Mat within = difference(cv::Rect(2, 4, 44, 24));
       EXPECT_LT(cv::norm(within, cv::NORM_L2) / std::sqrt(within.total()), 2) << turn << tilt;
       EXPECT_NEAR(cv::mean(within)[0], 0, 0.2) << turn << tilt;
     }
@@ -244,28 +253,30 @@ TEST(Render, FilledTilesAreWhatBlendingMakesOfThem) {
 // what the mean of the views does, to a small part.
 TEST(Render, MotionOfAPixelBlursAsTheMeanOfItsViews) {
   const Renderer renderer(on_wall(poster(160, 120, 3), 2, 1.5, 128), small_camera());
-  for (const double texels : {0.6, 0.9, 1.2}) {  // per pixel
-    const double distance_m = texels * 121 / 80;
-    const double m_per_px = distance_m / 121;
-    Band band;
-    cv::Mat mean(96, 128, CV_32F, cv::Scalar(0));
-    for (const int k : {-1, 0, 1}) {
-      const CameraPose pose =
-          looking({0, 0, 0.002 * k}, distance_m, 0.4 * k * m_per_px, -0.2 * k * m_per_px);
-      band.during.push_back({0, pose});
-      cv::accumulateWeighted(renderer.view(pose), mean, 1.0 / (k + 2));
+  for (const std::vector<int>& steps : {std::vector<int>{-1, 0, 1}, std::vector<int>{-1, 1}}) {
+    for (const double texels : {0.6, 0.9, 1.2}) {  // per pixel
+      const double distance_m = texels * 121 / 80;
+      const double m_per_px = distance_m / 121;
+      Band band;
+      cv::Mat mean(96, 128, CV_32F, cv::Scalar(0));
+      for (const int k : steps) {
+        const CameraPose pose =
+            looking({0, 0, 0.002 * k}, distance_m, 0.4 * k * m_per_px, -0.2 * k * m_per_px);
+        band.during.push_back({0, pose});
+        cv::accumulateWeighted(renderer.view(pose), mean, 1.0 / double(band.during.size()));
+      }
+      const cv::Rect within(64 - 30, 48 - 22, 60, 44);
+      const auto rms_to = [&](const cv::Mat& picture) {
+        cv::Mat difference;
+        cv::subtract(picture, mean, difference, cv::noArray(), CV_32F);
+        EXPECT_NEAR(cv::mean(difference(within))[0], 0, 0.2) << texels;
+        return cv::norm(difference(within), cv::NORM_L2) / std::sqrt(double(within.area()));
+      };
+      const double blurred = rms_to(renderer.expose(Shot{band}));
+      const double sharp = rms_to(renderer.view(looking({0, 0, 0}, distance_m)));
+      EXPECT_LT(blurred, 1) << texels;  // 0.33 is rounding, the rest a box for steps
+      EXPECT_GT(sharp, 2 * blurred) << texels;
     }
-    const cv::Rect within(64 - 30, 48 - 22, 60, 44);
-    const auto rms_to = [&](const cv::Mat& picture) {
-      cv::Mat difference;
-      cv::subtract(picture, mean, difference, cv::noArray(), CV_32F);
-      EXPECT_NEAR(cv::mean(difference(within))[0], 0, 0.1) << texels;
-      return cv::norm(difference(within), cv::NORM_L2) / std::sqrt(double(within.area()));
-    };
-    const double blurred = rms_to(renderer.expose(Shot{band}));
-    const double sharp = rms_to(renderer.view(band.during[1].world_from_camera));
-    EXPECT_LT(blurred, 1) << texels;  // 0.33 is rounding, the rest a box for steps
-    EXPECT_GT(sharp, 2 * blurred) << texels;
   }
 }
 

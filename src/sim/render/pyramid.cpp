@@ -1,6 +1,7 @@
 #include "pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -29,9 +30,9 @@ Level sharp_level(const cv::Mat& texture) {
   Level level;
   cv::Mat padded;
   cv::copyMakeBorder(texture, padded, 1, 2, 1, 2, cv::BORDER_REPLICATE);
-  std::vector<cv::Mat> rows;
-  for (int i = 0; i < 4; ++i) rows.push_back(padded.rowRange(i, i + texture.rows));
-  cv::merge(rows, level.grey);
+  std::array<cv::Mat, 4> rows;
+  for (int i = 0; i < 4; ++i) rows[std::size_t(i)] = padded.rowRange(i, i + texture.rows);
+  cv::merge(rows.data(), rows.size(), level.grey);
   level.first = 0.5;
   level.last_s = float(texture.cols - 1);
   level.last_t = float(texture.rows - 1);

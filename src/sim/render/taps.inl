@@ -11,6 +11,7 @@ constexpr int kLanes = 8;
 
 /// In a loop over pixels, so that what is the same for all of them is worked out once.
 #define KESTREL_INLINE [[gnu::always_inline]] inline
+
 inline Floats load(const float* at) {
   Floats v;
   __builtin_memcpy(&v, at, sizeof v);
