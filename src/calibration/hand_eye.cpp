@@ -33,6 +33,7 @@ Eigen::Matrix3d mean_of(const std::vector<Eigen::Matrix3d>& rotations) {
 /// Root mean squares of the attitudes about the principal axes of their spread, largest first.
 Eigen::Vector3d spread_rad(const std::vector<HandEyeStation>& stations) {
   std::vector<Eigen::Matrix3d> all;
+  all.reserve(stations.size());
   for (const HandEyeStation& s : stations) all.push_back(rotation_of(s.attitude));
   const Eigen::Matrix3d mean = mean_of(all);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -98,9 +99,9 @@ void add_residuals(const std::vector<HandEyeStation>& stations, HandEyeResult& r
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const HandEyeStation& s : stations) {
     const auto body_from_target = *result.body_from_camera * s.camera_from_target;
-    turned.push_back(rotation_of(s.attitude) * body_from_target.rotation);
-    places.push_back(rotation_of(s.attitude) * body_from_target.translation +
-                     s.position_ned_m.value_or(kNowhere));
+    turned.emplace_back(rotation_of(s.attitude) * body_from_target.rotation);
+    places.emplace_back(rotation_of(s.attitude) * body_from_target.translation +
+                        s.position_ned_m.value_or(kNowhere));
     centre += places.back() / double(stations.size());
   }
   const Eigen::Matrix3d mean = mean_of(turned);
