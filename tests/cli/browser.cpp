@@ -64,6 +64,8 @@ std::string Browser::call(const std::string& path, const std::string& body) {
 void Browser::go(const std::string& address) { call("/url", Json{{"url", address}}.dump()); }
 
 void Browser::click(const std::string& id) {
+  // As a human scrolls: to where the page's header, which stays, does not cover it.
+  run("document.getElementById('" + id + "').scrollIntoView({block: 'center'})");
   const Json found =
       Json::parse(call("/element", Json{{"using", "css selector"}, {"value", '#' + id}}.dump()));
   const std::string element = found.begin().value();
