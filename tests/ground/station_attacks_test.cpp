@@ -193,8 +193,7 @@ TEST_F(Attack, TheCountsStandInTheStatus) {
   client_.get("/stream");
   const auto counts = client_.status()["refusals"];
   EXPECT_EQ(counts["wrong_token"], 1);
-  EXPECT_EQ(counts["slow"], 0);
-  EXPECT_EQ(client_.status()["refused"], 1) << client_.status()["refusals"];
+  EXPECT_EQ(client_.status()["refused"], 1);
 }
 
 }  // namespace

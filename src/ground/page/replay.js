@@ -120,7 +120,7 @@ const Replay = (() => {
     token = nextToken;
     if (!runs) await load();
     dirty = true;
-    let before_ms = performance.now();
+    let before_ms = performance.now(), before = 0;
     for (;;) {
       const passed_s = (performance.now() - before_ms) / 1000;
       before_ms = performance.now();
@@ -129,6 +129,8 @@ const Replay = (() => {
       if (dirty) {
         dirty = false;
         const row = rowAt(shown, now_s), frame = await frameOf(shown, row);
+        if (Math.abs(row - before) > kBatch) Picture.forget();  // the corners' way is not known in between
+        before = row;
         if (frame) await show(frame);
         showBar(row);
         fetchAhead(row);
