@@ -48,11 +48,16 @@ double PlaceAgreement::alike_share() const {
 }
 
 double PlaceAgreement::evident_share() const {
-  const auto evident = [](const Agreement& a) {
-    constexpr int kFree = 4;
-    return a.visible > kFree ? std::max(a.alike - kFree, 0) / double(a.visible - kFree) : 0.0;
+  constexpr int kFree = 4;
+  const auto evident = [](int alike, int visible, int free) {
+    return visible > free ? std::max(alike - free, 0) / double(visible - free) : 0.0;
   };
-  return coarse.visible > 0 ? (evident(fine) + evident(coarse)) / 2 : evident(fine);
+  const double by_fine = evident(fine.alike, fine.visible, kFree);
+  if (coarse.visible == 0) return by_fine;
+  if (coarse.visible <= kFree) {
+    return evident(fine.alike + coarse.alike, fine.visible + coarse.visible, 2 * kFree);
+  }
+  return (by_fine + evident(coarse.alike, coarse.visible, kFree)) / 2;
 }
 
 double PlaceAgreement::better_half() const {

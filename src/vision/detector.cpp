@@ -12,6 +12,28 @@ namespace {
 /// As vision/keypoints: cv::SIFT of OpenCV 4.6 places its keypoints too far right and down.
 constexpr double kDoublingBiasPx = 0.25;
 
+/// Keypoints have scales from 1.26 sigma on, and their descriptors reach over 7.5 scales to each
+/// side: 15 px for the usual sigma of 1.6. A template of this shorter side holds, at half its size,
+/// two such descriptors side by side; of a smaller one most show what lies around it.
+constexpr double kSmallSidePx = 128;
+
+/// What is searched for then is as small as enlarging the frame twice would show it (Lowe 2004,
+/// section 3.3), but on its own pixels: of a picture blurred so 4 % is left at half their rate,
+/// exp(-(pi sigma)^2 / 2), too little to mislead, and the time is that of a quarter of the pixels.
+constexpr double kSmallSigmaPx = 0.8;
+
+/// How a frame is searched for a template. Keypoints of a picture are as many as scales fit into
+/// it: with the inverse square of sigma.
+FastSiftOptions sift_of_frames(const Template& model, const FastSiftOptions& wanted) {
+  FastSiftOptions sift = wanted;
+  const bool is_small = std::min(model.width(), model.height()) < kSmallSidePx;
+  if (!is_small || wanted.is_doubled || wanted.sigma <= kSmallSigmaPx) return sift;
+  const double more = wanted.sigma * wanted.sigma / (kSmallSigmaPx * kSmallSigmaPx);
+  sift.sigma = kSmallSigmaPx;
+  sift.max_keypoints = int(std::min(more * wanted.max_keypoints, double(kMaxSiftPoints)));
+  return sift;
+}
+
 /// RootSIFT in 7 bits of a row of cv::SIFT.
 Descriptor root(const float* bins) {
   float sum = 0;
@@ -58,6 +80,9 @@ struct Detector::Memory {
 Detector::Detector(const Template& model, const TrackOptions& options)
     : size_{model.width(), model.height()}, options_(options.detect) {
   options_.sift.simd = options_.match.simd = options.simd;
+  if (options_.source == SiftSource::Kestrel) {
+    options_.sift = sift_of_frames(model, options_.sift);
+  }
   memory_ = std::make_unique<Memory>(
       Memory{FastSift(options_.sift), FeatureMatcher(model.features(), options_.match)});
 }

@@ -58,7 +58,7 @@ void FastSiftOptions::check() const {
           "sift.contrast_threshold: must be at least 0 and below 1");
   require(edge_threshold >= 1 && std::isfinite(edge_threshold),
           "sift.edge_threshold: must be at least 1");
-  require(sigma >= 1.2 && sigma <= 3, "sift.sigma: must be 1.2 to 3 px");
+  require(sigma >= 0.8 && sigma <= 3, "sift.sigma: must be 0.8 to 3 px");
   require(max_keypoints >= 1 && max_keypoints <= kMaxSiftPoints,
           "sift.max_keypoints: must be 1 to 8000");
 }

@@ -104,14 +104,15 @@ void TargetSearch::Parts::look_around(const Frame& frame, const Homography& star
 }
 
 /// Of all blurs those that are likeliest at the places are aligned; the best view that is
-/// not weak itself is taken.
+/// evident is taken. Only as long as the motion expects the target near here: one that was lost
+/// may be anywhere, and what is smooth looks like some blur of it.
 void TargetSearch::Parts::follow_blurred(const Homography& around, const Homography& found,
                                          const std::optional<Expectation>& expected,
                                          Sighting& sighting) {
-  if (!blurred) return;
+  if (!blurred || !expected) return;
   for (const auto& guess : blurred->likeliest(pyramid, {around, found})) {
     const auto at = blurred->align(pyramid, guess);
-    if (verdict.is_doubtful(at, expected)) continue;
+    if (verdict.is_doubtful(at, expected) || !Verdict::is_evident_blurred(*at)) continue;
     if (sighting.at && !is_better(*at, *sighting.at)) continue;
     sighting.at = at;
     sighting.stage = TrackStage::Searched;

@@ -70,6 +70,23 @@ TEST(Agreement, FourBlocksOfALevelAreNoEvidence) {
   EXPECT_EQ((PlaceAgreement{agreement(few, {}), {}}.evident_share()), 0);
 }
 
+/// What a template of 64x51 px shows at half its size: two coarse blocks must not speak against it,
+/// nor for it.
+TEST(Agreement, ACoarseLevelOfAFewBlocksIsCountedWithTheFineOne) {
+  const auto seen = [](int alike, int unlike, int alike_coarse, int unlike_coarse) {
+    auto fine = blocks(alike, unlike, 0);
+    auto coarse = blocks(alike_coarse, unlike_coarse, 0);
+    return PlaceAgreement{agreement(fine, {}), agreement(coarse, {})};
+  };
+  EXPECT_DOUBLE_EQ(seen(11, 3, 2, 0).evident_share(), (13.0 - 8) / (16 - 8));
+  EXPECT_TRUE(is_accepted(seen(11, 3, 2, 0), {}));
+  EXPECT_DOUBLE_EQ(seen(8, 6, 1, 3).evident_share(), (9.0 - 8) / (18 - 8));
+  EXPECT_FALSE(is_accepted(seen(8, 6, 2, 2), {}));  // as many as the fine level alone would need
+  EXPECT_EQ(seen(4, 0, 4, 0).evident_share(), 0);
+  EXPECT_DOUBLE_EQ(seen(14, 0, 5, 0).evident_share(), 1);  // five say something by themselves
+  EXPECT_DOUBLE_EQ(seen(14, 0, 4, 1).evident_share(), 0.5);
+}
+
 TEST(Agreement, OfNothingIsNotAccepted) {
   EXPECT_FALSE(accepts({}));
   EXPECT_FALSE(accepts(blocks(0, 0, 30)));

@@ -52,6 +52,44 @@ TEST(Detector, FindsViewsOfTheTemplate) {
   }
 }
 
+/// A corner of the target, 96x76 px, learned on the ground and shown elsewhere at half its size:
+/// 48x38 px hold few structures of the usual size that do not reach over the rectangle.
+TEST(Detector, FindsASmallTemplateAtHalfItsSize) {
+  constexpr int kWidth = 96;
+  constexpr int kHeight = 76;
+  const PixelBox box{test::kLearnedAt.u, test::kLearnedAt.v, kWidth, kHeight};
+  const Template small(test::planted(test::learned_place()), box, {});
+  Detector detector(small, {});
+  for (int turn = 0; turn < 4; ++turn) {
+    const Homography truth = test::placed_at({210, 150}, {0.5, 0.2 + turn * M_PI / 2, 0, 0});
+    const Detection seen = detector.detect(test::planted(truth), kEverywhere);
+    ASSERT_FALSE(seen.hypotheses.empty()) << turn;
+    const auto at = outline(seen.hypotheses.front().image_from_template, kWidth, kHeight);
+    const auto to = outline(truth, kWidth, kHeight);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(distance(at[i], to[i]), 4) << turn;
+  }
+}
+
+/// Small structures are four times as many; a larger template, or a wish, leaves them out.
+TEST(Detector, SearchesFinerForASmallTemplateOnly) {
+  const cv::Mat image = test::planted(test::learned_place());
+  const auto keypoints = [&](double height_px, const TrackOptions& options) {
+    const PixelBox box{test::kLearnedAt.u, test::kLearnedAt.v, 140, height_px};
+    const Template learned(image, box, options);
+    return Detector(learned, options).detect(image, kEverywhere).keypoints;
+  };
+  TrackOptions usual;
+  usual.detect.sift.contrast_threshold = 0.02;
+  TrackOptions coarse = usual;
+  coarse.detect.sift.sigma = 2.4;
+  TrackOptions enlarged = usual;
+  enlarged.detect.sift.is_doubled = true;
+  const int many = keypoints(126, usual);
+  EXPECT_GT(many, 1.3 * keypoints(128, usual));
+  EXPECT_EQ(many, keypoints(126, coarse));  // whatever the usual size is
+  EXPECT_EQ(keypoints(126, enlarged), keypoints(128, enlarged));
+}
+
 TEST(Detector, LooksOnlyInTheWindow) {
   Detector detector(model(), {});
   const PixelBox window{20, 30, 150, 120};

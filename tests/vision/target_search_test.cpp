@@ -103,7 +103,8 @@ TEST(TargetSearch, FollowsWhatMotionBlurs) {
   const PixelBox all{0, 0, test::kGroundWidth, test::kGroundHeight};
   const Blur motion{22, 2.6};
   const Homography off = shifted(truth, 4, -3);
-  const Sighting seen = search().follow(frame_of(blurred(planted(truth), all, motion)), off, {});
+  const Frame frame = frame_of(blurred(planted(truth), all, motion));
+  const Sighting seen = search().follow(frame, off, Expectation{off, 3});
   ASSERT_TRUE(seen.is_accepted());
   EXPECT_FALSE(search().is_weak(*seen.at));
   EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);

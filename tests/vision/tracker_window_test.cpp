@@ -1,5 +1,6 @@
 // Where keypoints are looked for, on larger frames: longer than the fast tests may be.
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -132,6 +133,30 @@ TEST(TrackerWindow, BudgetIsKeptAndStripsCoverTheFrameInTurn) {
       state = seen.next;
     }
     EXPECT_TRUE(is_found) << v;
+  }
+}
+
+/// The target's upper left part is the template: it is lost, and comes back elsewhere at half, once
+/// or twice its size, turned by any angle. It is found in the first frame that shows it.
+TEST(TrackerWindow, ASmallTemplateIsFoundInTheFirstFrameItIsBack) {
+  for (const auto& [width, height] : {std::pair(64, 52), std::pair(96, 76), std::pair(128, 102)}) {
+    const PixelBox box{test::kLearnedAt.u, test::kLearnedAt.v, double(width), double(height)};
+    Tracker tracker(planted(test::learned_place()), box, test::options_of(TrackMethod::Hybrid));
+    TrackState state = tracker.start(test::kGroundWidth, test::kGroundHeight);
+    state = tracker.track(frame_of(planted(test::learned_place()), 0), state).next;
+    state = tracker.track(frame_of(test::ground(), kFrame_s), state).next;
+    const TrackState lost = tracker.track(frame_of(test::ground(), 5), state).next;
+    for (const double scale : {0.5, 1.0, 2.0}) {
+      for (int turn = 0; turn <= 6; ++turn) {
+        const Homography truth = test::moved({scale, turn * M_PI / 6, 0, 0},
+                                             {(width - 1) / 2., (height - 1) / 2.}, {230, 140});
+        const Track seen = tracker.track(frame_of(planted(truth), 6), lost);
+        ASSERT_TRUE(seen.found()) << width << " " << scale << " " << turn << name(seen.miss);
+        // Few blocks at half the size, and bilinear rendering: half a pixel.
+        EXPECT_LT(test::corner_distance(*seen.image_from_template, truth, width, height), 0.5)
+            << width << " " << scale << " " << turn;
+      }
+    }
   }
 }
 

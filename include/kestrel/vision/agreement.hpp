@@ -47,7 +47,9 @@ struct PlaceAgreement {
   /// Mean of the levels that have visible blocks, 0 to 1.
   double alike_share() const;
   /// The same without four blocks of each level, which the eight parameters of an alignment can
-  /// make alike whatever the image shows: below alike_share(), far below it for a small template.
+  /// make alike whatever the image shows: below alike_share(), far below it for a small template. A
+  /// coarse level of no more than four blocks says nothing by itself: all are counted together
+  /// then.
   double evident_share() const;
   double better_half() const;
   /// How much of the template is shown and how well, 0 to 1: the product of the two.

@@ -22,7 +22,9 @@ struct Detection {
 /// Finds a template in a window by its keypoints. Keeps its memory from frame to frame.
 class Detector {
  public:
-  /// The model must have been learned for Detect or Hybrid.
+  /// The model must have been learned for Detect or Hybrid. Frames are searched for the structures
+  /// that options.detect.sift names; for a template whose shorter side is below 128 px, unless they
+  /// are to be enlarged, for half as large ones (sigma 0.8 px) and for as many more.
   Detector(const Template& model, const TrackOptions& options);
   ~Detector();
   Detector(Detector&&) noexcept;

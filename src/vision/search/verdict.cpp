@@ -16,6 +16,9 @@ constexpr double kSharpHalf = 0.95;
 /// And above this, four fifths explained, what is doubtful for its other half is covered there.
 constexpr double kCoveredHalf = 0.9;
 
+/// Of a blurred view twice as many blocks must be alike as are not.
+constexpr double kEvidentShare = 2.0 / 3;
+
 }  // namespace
 
 AlignOptions align_options(const TrackOptions& options) {
@@ -67,6 +70,10 @@ bool Verdict::may_be_another(const Alignment& place) const {
 
 bool Verdict::is_sharp(const Alignment& place) const {
   return place.agreement.better_half() > kSharpHalf;
+}
+
+bool Verdict::is_evident_blurred(const Alignment& place) {
+  return place.agreement.alike_share() >= kEvidentShare;
 }
 
 /// What is covered leaves the better half of the blocks as it is, what is blurred spoils all.

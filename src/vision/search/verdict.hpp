@@ -44,6 +44,11 @@ class Verdict {
   bool may_be_blurred(const std::optional<Alignment>& place,
                       const std::optional<Expectation>& expected) const;
 
+  /// True when a blurred view is shown by so much that chance does not explain it. Its blocks are
+  /// smooth, each is one ramp or two, and the eight parameters of an alignment can lay several such
+  /// ramps over those of any smooth picture.
+  static bool is_evident_blurred(const Alignment& place);
+
   /// Standard deviations within which a place is the expected one.
   static constexpr double kGate = 3;
 
