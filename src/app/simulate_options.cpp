@@ -70,9 +70,10 @@ void add_simulate_options(CLI::App& verb, const std::shared_ptr<SimulateArgument
       "--seeds", [a](const std::string& text) { a->seeds = seed_range(text); },
       "Fly once for each seed, FIRST-LAST, and make a table");
   seed_range_option->excludes(seed);
-  auto* sink =
-      verb.add_option("--sink", a->sink,
-                      "Send the commands there too: autopilot:udp://HOST:PORT or udp://HOST:PORT");
+  auto* sink = verb.add_option(
+      "--sink", a->sink,
+      "Send the commands there too: autopilot:udp://HOST:PORT (the flight then goes in "
+      "real time) or udp://HOST:PORT");
   verb.add_option("--record", a->record,
                   "Folder for the camera's frames as a sequence with truth, for `evaluate` "
                   "(default: they are not kept)");

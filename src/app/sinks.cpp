@@ -120,9 +120,14 @@ Sink autopilot_sink(const std::string& address, const AutopilotOptions& options,
                     std::optional<double> stamp_origin_s) {
   auto link = std::make_unique<AutopilotLink>(parse_address(address), options, stamp_origin_s);
   AutopilotLink& it = *link;
-  return {std::move(link), [&it](double stamp_s) { return it.attitude_at(stamp_s); },
-          [&it](Summary& summary) { add_autopilot(summary, it); },
-          [&it] { return times_of(it.take_sent()); }, [&it] { return facts_of(it); }};
+  Sink sink;
+  sink.commands = std::move(link);
+  sink.attitude = [&it](double stamp_s) { return it.attitude_at(stamp_s); };
+  sink.report = [&it](Summary& summary) { add_autopilot(summary, it); };
+  sink.take_times = [&it] { return times_of(it.take_sent()); };
+  sink.facts = [&it] { return facts_of(it); };
+  sink.lives_by_the_clock = true;
+  return sink;
 }
 
 [[noreturn]] void refuse(const std::string& text) {

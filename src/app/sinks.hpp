@@ -27,6 +27,9 @@ struct Sink {
   std::function<std::vector<WireTime>()> take_times;
   /// What is known of the vehicle and of the way to it now; null for a sink that does not know.
   Facts facts{};
+  /// Whether what is at the other end lives by the clock on the wall: what is simulated for it must
+  /// not go faster.
+  bool lives_by_the_clock = false;
 };
 
 /// The sink of a task: "udp://HOST:PORT" (setpoints and nothing else), "autopilot:udp://HOST:PORT"
