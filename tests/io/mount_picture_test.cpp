@@ -1,12 +1,11 @@
 #include "kestrel/io/mount_picture.hpp"
 
-#include <regex>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kestrel/geometry/mount_preset.hpp"
 
+#include "io/svg_vertices.hpp"
 #include "support/markup_check.hpp"
 
 namespace kestrel {
@@ -19,17 +18,7 @@ Mount mount_of(MountPreset preset) { return {mount_rotation(preset), {0.3, 0, 0.
 
 /// The ends of the lines of the camera's field of view in the first (side) view of a picture, px:
 /// the closed outline's vertices.
-std::vector<Eigen::Vector2d> field_of_view(const std::string& svg) {
-  std::vector<Eigen::Vector2d> out;
-  const std::regex path("<path class=\"kl c0\" d=\"([^\"]*)\"");
-  const std::regex vertex("[ML](-?[0-9.]+) (-?[0-9.]+)");
-  std::smatch found;
-  if (!std::regex_search(svg, found, path)) return out;
-  const std::string d = found[1];
-  for (std::sregex_iterator v(d.begin(), d.end(), vertex), end; v != end; ++v)
-    out.emplace_back(std::stod((*v)[1]), std::stod((*v)[2]));
-  return out;
-}
+std::vector<Eigen::Vector2d> field_of_view(const std::string& svg) { return test::first_line(svg); }
 
 Eigen::Vector2d middle(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "io/svg_vertices.hpp"
 #include "support/markup_check.hpp"
 #include "support/random.hpp"
 
@@ -19,18 +20,6 @@ using ::testing::Not;
 
 /// The camera's axes as the camera sees them: x right, y down.
 SpaceView from_behind() { return {{0, -1, 0}, {0, 0, -1}}; }
-
-std::vector<Eigen::Vector2d> vertices(const std::string& svg) {
-  std::vector<Eigen::Vector2d> out;
-  const std::regex path("<path class=\"kl c0\" d=\"([^\"]*)\"");
-  const std::regex vertex("[ML](-?[0-9.]+) (-?[0-9.]+)");
-  std::smatch found;
-  if (!std::regex_search(svg, found, path)) return out;
-  const std::string d = found[1];
-  for (std::sregex_iterator v(d.begin(), d.end(), vertex), end; v != end; ++v)
-    out.emplace_back(std::stod((*v)[1]), std::stod((*v)[2]));
-  return out;
-}
 
 SpacePlot plot_of(const std::vector<Eigen::Vector3d>& points_m) {
   SpacePlot plot;
@@ -63,7 +52,7 @@ TEST(Projected, UpIsUpAndLengthsAcrossTheViewAreKept) {
 
 TEST(SvgSpace, HasOneScaleAndABarThatTellsIt) {
   const std::string svg = svg_space(plot_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}));
-  const auto at = vertices(svg);
+  const auto at = test::first_line(svg);
   ASSERT_EQ(at.size(), 3u);
   const double two_m = (at[1] - at[0]).norm();
   EXPECT_NEAR((at[2] - at[1]).norm() / two_m, 0.5, 0.002);
@@ -105,11 +94,11 @@ TEST(SvgSpace, WordsOfFramesInOnePlaceStandApart) {
 
 TEST(SvgSpace, ACutLineDoesNotWidenThePicture) {
   SpacePlot plot = plot_of({{0, 0, 0}, {1, 1, 0}});
-  const auto before = vertices(svg_space(plot));
+  const auto before = test::first_line(svg_space(plot));
   plot.lines.push_back({"", {{0, 0, 0}, {50, 0, 0}}, 1, Stroke::Solid, SpaceLine::Fit::Cut});
-  EXPECT_EQ(vertices(svg_space(plot)), before);
+  EXPECT_EQ(test::first_line(svg_space(plot)), before);
   plot.lines.back().fit = SpaceLine::Fit::Whole;
-  EXPECT_NE(vertices(svg_space(plot)), before);
+  EXPECT_NE(test::first_line(svg_space(plot)), before);
 }
 
 TEST(SvgSpace, DrawsTheAxesOfAFrame) {
