@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <opencv2/features2d.hpp>
@@ -13,21 +14,19 @@ namespace {
 constexpr double kDoublingBiasPx = 0.25;
 
 /// Keypoints have scales from 1.26 sigma on, and their descriptors reach over 7.5 scales to each
-/// side: 15 px for the usual sigma of 1.6. A template of this shorter side holds, at half its size,
-/// two such descriptors side by side; of a smaller one most show what lies around it.
-constexpr double kSmallSidePx = 128;
+/// side: 15 px for the usual sigma of 1.6. What is seen with this shorter side holds four such
+/// descriptors side by side, two at half its size; of what is smaller more and more show what lies
+/// around it.
+constexpr double kFewPx = 128;
 
 /// What is searched for then is as small as enlarging the frame twice would show it (Lowe 2004,
 /// section 3.3), but on its own pixels: of a picture blurred so 4 % is left at half their rate,
 /// exp(-(pi sigma)^2 / 2), too little to mislead, and the time is that of a quarter of the pixels.
 constexpr double kSmallSigmaPx = 0.8;
 
-/// How a frame is searched for a template. Keypoints of a picture are as many as scales fit into
-/// it: with the inverse square of sigma.
-FastSiftOptions sift_of_frames(const Template& model, const FastSiftOptions& wanted) {
+/// Keypoints of a picture are as many as scales fit into it: with the inverse square of sigma.
+FastSiftOptions small_structures(const FastSiftOptions& wanted) {
   FastSiftOptions sift = wanted;
-  const bool is_small = std::min(model.width(), model.height()) < kSmallSidePx;
-  if (!is_small || wanted.is_doubled || wanted.sigma <= kSmallSigmaPx) return sift;
   const double more = wanted.sigma * wanted.sigma / (kSmallSigmaPx * kSmallSigmaPx);
   sift.sigma = kSmallSigmaPx;
   sift.max_keypoints = int(std::min(more * wanted.max_keypoints, double(kMaxSiftPoints)));
@@ -72,30 +71,53 @@ SiftPoints opencv_points(const cv::Mat& gray, const PixelBox& window,
 
 }  // namespace
 
+std::vector<PixelPair> inlier_pairs(const Detection& seen, int hypothesis) {
+  std::vector<PixelPair> pairs;
+  for (const int i : seen.hypotheses[std::size_t(hypothesis)].inliers) {
+    const AffinePair& pair = seen.pairs[std::size_t(i)];
+    pairs.push_back({pair.in_template, pair.in_image});
+  }
+  return pairs;
+}
+
 struct Detector::Memory {
-  FastSift sift;
+  std::optional<FastSift> usual;
+  std::optional<FastSift> small;
   FeatureMatcher matcher;
 };
 
 Detector::Detector(const Template& model, const TrackOptions& options)
     : size_{model.width(), model.height()}, options_(options.detect) {
   options_.sift.simd = options_.match.simd = options.simd;
-  if (options_.source == SiftSource::Kestrel) {
-    options_.sift = sift_of_frames(model, options_.sift);
-  }
-  memory_ = std::make_unique<Memory>(
-      Memory{FastSift(options_.sift), FeatureMatcher(model.features(), options_.match)});
+  memory_ =
+      std::make_unique<Memory>(Memory{{}, {}, FeatureMatcher(model.features(), options_.match)});
+  const FastSiftOptions& sift = options_.sift;
+  const double shorter_px = std::min(size_.width, size_.height);
+  const bool has_smaller = options_.source == SiftSource::Kestrel && !sift.is_doubled &&
+                           sift.sigma > kSmallSigmaPx && shorter_px / 2 < kFewPx;
+  if (has_smaller) memory_->small.emplace(small_structures(sift));
+  if (!has_smaller || shorter_px >= kFewPx) memory_->usual.emplace(sift);
 }
 
 Detector::~Detector() = default;
 Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 
-Detection Detector::detect(const cv::Mat& gray, const PixelBox& window) {
+bool Detector::has_second_look(const std::optional<Homography>& expected) const {
+  if (!memory_->usual || !memory_->small) return false;
+  if (!expected) return true;
+  const double shorter_px = std::min(size_.width, size_.height);
+  const double area_px2 = std::abs(signed_area(outline(*expected, size_.width, size_.height)));
+  return std::sqrt(area_px2 / (size_.width * size_.height)) * shorter_px < kFewPx;
+}
+
+Detection Detector::detect(const cv::Mat& gray, const PixelBox& window, Structures structures) {
   const bool by_opencv = options_.source == SiftSource::OpenCv;
   const SiftPoints reference =
       by_opencv ? opencv_points(gray, window, options_.sift) : SiftPoints();
-  const SiftPoints& seen = by_opencv ? reference : memory_->sift.detect(gray, window);
+  const bool is_small = !memory_->usual || (structures == Structures::Small && memory_->small);
+  FastSift& sift = is_small ? *memory_->small : *memory_->usual;
+  const SiftPoints& seen = by_opencv ? reference : sift.detect(gray, window);
   Detection result;
   result.keypoints = int(seen.at.size());
   result.pairs = memory_->matcher.match(seen);

@@ -12,20 +12,6 @@
 #include "search/verdict.hpp"
 
 namespace kestrel {
-namespace {
-
-/// The pairs of keypoints that led to a place.
-std::vector<PixelPair> pairs_of(const Detection& seen, int hypothesis) {
-  std::vector<PixelPair> pairs;
-  for (const int i : seen.hypotheses[std::size_t(hypothesis)].inliers) {
-    const AffinePair& pair = seen.pairs[std::size_t(i)];
-    pairs.push_back({pair.in_template, pair.in_image});
-  }
-  return pairs;
-}
-
-}  // namespace
-
 struct TargetSearch::Parts {
   const Template& model;
   TrackOptions options;
@@ -58,7 +44,7 @@ struct TargetSearch::Parts {
   void refine_blurred(const std::optional<Expectation>& expected, Sighting& sighting);
   void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
   Sighting detect(const Frame& frame, const PixelBox& window,
-                  const std::optional<Expectation>& expected);
+                  const std::optional<Expectation>& expected, Structures structures);
 };
 
 Sighting TargetSearch::Parts::follow(const Frame& frame, const Homography& last,
@@ -149,11 +135,12 @@ void TargetSearch::Parts::settle(const Frame& frame, const std::optional<Expecta
 }
 
 Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
-                                     const std::optional<Expectation>& expected) {
+                                     const std::optional<Expectation>& expected,
+                                     Structures structures) {
   Sighting result;
   result.stage = TrackStage::Detected;
   result.window = clipped(window, frame.gray.cols, frame.gray.rows);
-  const Detection seen = detector.detect(frame.gray, result.window);
+  const Detection seen = detector.detect(frame.gray, result.window, structures);
   result.keypoints = seen.keypoints;
   result.matches = int(seen.pairs.size());
   result.miss = seen.keypoints < 4                                ? Miss::FewKeypoints
@@ -174,7 +161,7 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   result.miss = chosen.miss;
   result.at = places[chosen.place].at;
   settle(frame, expected, result);
-  if (result.is_accepted()) result.inliers = pairs_of(seen, places[chosen.place].hypothesis);
+  if (result.is_accepted()) result.inliers = inlier_pairs(seen, places[chosen.place].hypothesis);
   return result;
 }
 
@@ -192,7 +179,13 @@ Sighting TargetSearch::follow(const Frame& frame, const Homography& last,
 
 Sighting TargetSearch::detect(const Frame& frame, const PixelBox& window,
                               const std::optional<Expectation>& expected) {
-  return parts_->detect(frame, window, expected);
+  Sighting seen = parts_->detect(frame, window, expected, Structures::Usual);
+  // Of two places that are alike a second look might miss one and take the other.
+  if (seen.is_accepted() || seen.miss == Miss::Ambiguous) return seen;
+  const auto ahead = expected ? std::optional(expected->image_from_template) : std::nullopt;
+  if (!parts_->detector.has_second_look(ahead)) return seen;
+  Sighting again = parts_->detect(frame, window, expected, Structures::Small);
+  return again.is_accepted() ? again : seen;
 }
 
 bool TargetSearch::is_weak(const Alignment& place) const { return parts_->verdict.is_weak(place); }

@@ -125,8 +125,15 @@ struct Count {
   int shown = 0;
   int right = 0;
   int wrong = 0;
+  std::map<std::string, int> missed_for;
   std::vector<double> ms;
 };
+
+std::string listed(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [word, n] : counts) text += " " + word + ":" + std::to_string(n);
+  return text;
+}
 
 double cpu_ms() {
   timespec t{};
@@ -154,7 +161,10 @@ void count(const std::string& texture, int width_px, const Arguments& a,
       const Track seen = tracker.track(back, state);
       c.ms.push_back(cpu_ms() - before_ms);
       ++c.shown;
-      if (!seen.found()) continue;
+      if (!seen.found()) {
+        ++c.missed_for[name(seen.miss)];
+        continue;
+      }
       const double error_px = scene.error_px(*seen.image_from_template, pose);
       c.right += error_px < kRight_px ? 1 : 0;
       c.wrong += error_px > kWrong_px ? 1 : 0;
@@ -165,15 +175,16 @@ void count(const std::string& texture, int width_px, const Arguments& a,
 int run(int argc, char** argv) {
   cv::setNumThreads(1);
   const Arguments a = arguments(argc, argv);
-  std::printf("%6s %6s %6s %8s %6s %8s %8s\n", "width", "scale", "shown", "found %", "wrong",
-              "med ms", "max ms");
+  std::printf("%6s %6s %6s %8s %6s %8s %8s  %s\n", "width", "scale", "shown", "found %", "wrong",
+              "med ms", "max ms", "missed for");
   for (const int width_px : a.widths_px) {
     std::map<double, Count> by_scale;
     for (const std::string& texture : a.textures) count(texture, width_px, a, by_scale);
     for (auto& [scale, c] : by_scale) {
       std::sort(c.ms.begin(), c.ms.end());
-      std::printf("%6d %6.2f %6d %8.1f %6d %8.2f %8.2f\n", width_px, scale, c.shown,
-                  100.0 * c.right / c.shown, c.wrong, c.ms[c.ms.size() / 2], c.ms.back());
+      std::printf("%6d %6.2f %6d %8.1f %6d %8.2f %8.2f %s\n", width_px, scale, c.shown,
+                  100.0 * c.right / c.shown, c.wrong, c.ms[c.ms.size() / 2], c.ms.back(),
+                  listed(c.missed_for).c_str());
     }
     std::fflush(stdout);
   }

@@ -90,6 +90,43 @@ TEST(Detector, SearchesFinerForASmallTemplateOnly) {
   EXPECT_EQ(keypoints(126, enlarged), keypoints(128, enlarged));
 }
 
+/// A second look is for what is seen with a shorter side below 128 px after a look for the usual
+/// structures: where nothing is expected, that may be half of what was learned.
+TEST(Detector, HasASecondLookForWhatMayBeSeenSmall) {
+  cv::Mat image(test::kGroundHeight, test::kGroundWidth, CV_8UC1, cv::Scalar(90));
+  const cv::Rect corner(10, 10, 60, 60);
+  test::ground()(corner).copyTo(image(corner));  // little to learn
+  const auto detector = [&](double height_px, const TrackOptions& options) {
+    return Detector(Template(image, {10, 10, 300, height_px}, options), options);
+  };
+  TrackOptions enlarged;
+  enlarged.detect.sift.is_doubled = true;
+  TrackOptions by_opencv;
+  by_opencv.detect.source = SiftSource::OpenCv;
+  EXPECT_FALSE(detector(126, {}).has_second_look({}));  // the first was for small ones
+  EXPECT_TRUE(detector(128, {}).has_second_look({}));
+  EXPECT_TRUE(detector(254, {}).has_second_look({}));
+  EXPECT_FALSE(detector(256, {}).has_second_look({}));
+  EXPECT_FALSE(detector(200, enlarged).has_second_look({}));
+  EXPECT_FALSE(detector(200, by_opencv).has_second_look({}));
+  const Detector large = detector(200, {});
+  const auto seen_at = [](double scale) { return test::placed_at({200, 150}, {scale, 0.4, 0, 0}); };
+  EXPECT_FALSE(large.has_second_look(seen_at(0.65)));
+  EXPECT_TRUE(large.has_second_look(seen_at(0.63)));
+}
+
+/// Small structures are as many more as the inverse square of their size, and are found wherever
+/// the usual ones are searched for first.
+TEST(Detector, SeesMoreInASecondLook) {
+  Detector detector(model(), {});
+  const cv::Mat image = test::planted(test::placed_at({210, 150}, {0.5, 1, 0, 0}));
+  const Detection first = detector.detect(image, kEverywhere);
+  const Detection second = detector.detect(image, kEverywhere, Structures::Small);
+  ASSERT_FALSE(first.hypotheses.empty() || second.hypotheses.empty());
+  EXPECT_GT(second.hypotheses.front().inliers.size(), 2 * first.hypotheses.front().inliers.size());
+  EXPECT_TRUE(same(first, detector.detect(image, kEverywhere)));  // one does not touch the other
+}
+
 TEST(Detector, LooksOnlyInTheWindow) {
   Detector detector(model(), {});
   const PixelBox window{20, 30, 150, 120};

@@ -110,6 +110,37 @@ TEST(TargetSearch, FollowsWhatMotionBlurs) {
   EXPECT_LT(error_px(seen.at->image_from_template, truth), motion.length_px / 10);
 }
 
+/// The target smeared over so many px, with its upper rows covered.
+Frame smeared(const Homography& truth, double length_px, int covered_rows) {
+  cv::Mat image = blurred(planted(truth), kEverywhere, Blur{length_px, 0.5});
+  const int top = int(test::kLearnedAt.v);
+  image(cv::Rect(0, top, test::kGroundWidth, covered_rows)).setTo(128);
+  return frame_of(image);
+}
+
+/// What is smooth looks like some blur of the template: one that was lost, and may be anywhere, is
+/// not taken for its blur. Over 30 px nothing of it is left to be seen sharp.
+TEST(TargetSearch, TakesBlurredViewsOnlyWhereTheTargetIsExpected) {
+  const Homography truth = test::learned_place();
+  const Homography off = shifted(truth, 2, -2);
+  const Frame frame = smeared(truth, 30, 0);
+  EXPECT_TRUE(search().follow(frame, off, Expectation{off, 3}).is_accepted());
+  EXPECT_FALSE(search().follow(frame, off, {}).is_accepted());
+}
+
+/// Of a sharp view half is enough; of a blurred one two thirds are asked. 22 px leave nothing sharp
+/// of 60 %, and a tenth is room for blocks that are covered in part.
+TEST(TargetSearch, TakesBlurredViewsThatShowTwoThirdsOnly) {
+  const Homography truth = test::learned_place();
+  const auto is_found = [&](double length_px, double covered) {
+    const Frame frame = smeared(truth, length_px, int(covered * test::kTargetHeight));
+    return search().follow(frame, truth, Expectation{truth, 3}).is_accepted();
+  };
+  EXPECT_TRUE(is_found(22, 0.23));
+  EXPECT_FALSE(is_found(22, 0.43));
+  EXPECT_TRUE(is_found(1, 0.43));
+}
+
 /// Print on a box: few edges, and strong ones.
 cv::Mat print() {
   test::Random random("print");

@@ -47,8 +47,9 @@ class TargetSearch {
   Sighting follow(const Frame& frame, const Homography& last,
                   const std::optional<Expectation>& expected);
 
-  /// The template in a window, from its keypoints. Of several places that look like the template
-  /// the expected one is taken; none, when nothing was expected.
+  /// The template in a window, from its keypoints: of the usual structures, and where they find no
+  /// place, of small ones, if Detector has a second look. Of several places that look like the
+  /// template the expected one is taken; none, when nothing was expected.
   Sighting detect(const Frame& frame, const PixelBox& window,
                   const std::optional<Expectation>& expected);
 

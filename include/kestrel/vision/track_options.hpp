@@ -48,7 +48,7 @@ struct DetectOptions {
   FastSiftOptions sift;
   FeatureMatchOptions match;
   VoteOptions fit;
-  int max_px_per_frame = 500000;  // pixels searched in one frame; the rest comes in the next one
+  int max_px_per_frame = 500000;  // pixels that one look at a frame searches; the rest comes next
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
