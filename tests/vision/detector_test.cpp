@@ -97,7 +97,7 @@ TEST(Detector, HasASecondLookForWhatMayBeSeenSmall) {
   const cv::Rect corner(10, 10, 60, 60);
   test::ground()(corner).copyTo(image(corner));  // little to learn
   const auto detector = [&](double height_px, const TrackOptions& options) {
-    return Detector(Template(image, {10, 10, 300, height_px}, options), options);
+    return Detector(Template(image, {10, 10, height_px + 2, height_px}, options), options);
   };
   TrackOptions enlarged;
   enlarged.detect.sift.is_doubled = true;
