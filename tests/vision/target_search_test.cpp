@@ -242,6 +242,26 @@ TEST_F(RepeatedTarget, IsNotToldByAMotionThatLeadsBeside) {
   EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.2);
 }
 
+TEST_F(RepeatedTarget, HalfCoveredIsNotToldByKeypoints) {
+  // What is left of it is as like one period as the other.
+  const Template repeated(scene(), test::kLearnedAt, {});
+  TargetSearch with(repeated, {});
+  cv::Mat covered = scene();
+  const PixelBox& at = test::kLearnedAt;
+  const int width = int(at.width) * 47 / 100;
+  covered(cv::Rect(int(at.u + at.width) - width, int(at.v), width, int(at.height))).setTo(128);
+  EXPECT_EQ(with.detect(frame_of(covered), kEverywhere, {}).miss, Miss::Ambiguous);
+}
+
+TEST_F(RepeatedTarget, IsNotComparedWithItsBlurs) {
+  // Smeared along its periods, 30 of 80 px, a view of it would be some 5 px off.
+  const Template repeated(scene(), test::kLearnedAt, {});
+  TargetSearch with(repeated, {});
+  const Homography truth = test::learned_place();
+  const Frame frame = frame_of(blurred(scene(), kEverywhere, Blur{30, 0}));
+  EXPECT_FALSE(with.follow(frame, truth, Expectation{truth, 3}).is_accepted());
+}
+
 TEST(TargetSearch, DetectsAndRefinesOnThePixels) {
   const Homography truth = placed_at({230, 160}, {0.8, 1, 0.5, 0});
   const Sighting seen = search().detect(frame_of(planted(truth)), kEverywhere, {});
