@@ -83,6 +83,14 @@ TEST(TargetSearch, FollowsNothingThatIsNotThere) {
   EXPECT_FALSE(search().follow(frame_of(planted(H)), outside, {}).is_accepted());
 }
 
+/// All its pixels agree, and no camera shows a plane from behind.
+TEST(TargetSearch, RefusesWhatIsMirrored) {
+  Homography mirrored = placed_at({210, 150});
+  mirrored.H.col(2) += mirrored.H.col(0) * (test::kTargetWidth - 1);
+  mirrored.H.col(0) *= -1;
+  EXPECT_FALSE(search().follow(frame_of(planted(mirrored)), mirrored, {}).is_accepted());
+}
+
 TEST(TargetSearch, ACoveredTargetIsAWeakSight) {
   const Homography truth = placed_at({210, 150});
   const Sighting whole = search().follow(frame_of(planted(truth)), truth, {});
@@ -226,6 +234,9 @@ TEST_F(RepeatedTarget, HalfCoveredIsToldByTheMotion) {
   const double vague_px = kPeriod / 3.0;  // three of these reach the period
   EXPECT_FALSE(
       with.follow(frame_of(covered), truth, Expectation{truth, 1.1 * vague_px}).is_accepted());
+  // A motion that leads to none of the places tells nothing of them.
+  EXPECT_FALSE(
+      with.follow(frame_of(covered), truth, Expectation{shifted(truth, 0, 40), 2}).is_accepted());
   const Sighting seen = with.follow(frame_of(covered), truth, Expectation{shifted(truth, 2, 2), 2});
   ASSERT_TRUE(seen.is_accepted());
   EXPECT_LT(error_px(seen.at->image_from_template, truth), 0.5);
