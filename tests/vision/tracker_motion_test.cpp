@@ -77,5 +77,23 @@ TEST(TrackerMotion, KeypointsAreLookedForWhereItLeads) {
   EXPECT_NEAR(window.v, std::max(box.v - by_px, 0.0), 1);
 }
 
+/// Covered by more than half for as long as keypoints are asked and know nothing of it.
+TEST(TrackerMotion, AWeakAnswerIsBetterThanNone) {
+  TrackOptions options = test::options_of(TrackMethod::Hybrid);
+  options.detect.fit.min_inliers = 100;  // more than it has
+  Tracker tracker = test::tracker_of(options);
+  const Homography truth = test::placed_at({210, 150});
+  cv::Mat covered = test::planted(truth);
+  covered(cv::Rect(130, 80, 88, 140)).setTo(128);
+  TrackState state = tracker.start(test::kGroundWidth, test::kGroundHeight);
+  state.last_seen = truth;
+  for (int k = 0; k < 2 * options.weak_frames; ++k) {
+    const Track seen = tracker.track(test::frame_of(covered, k * kFrame_s), state);
+    ASSERT_TRUE(seen.found()) << k;
+    EXPECT_EQ(seen.stage, TrackStage::Aligned) << k;
+    state = seen.next;
+  }
+}
+
 }  // namespace
 }  // namespace kestrel
