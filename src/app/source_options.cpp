@@ -51,6 +51,14 @@ void add_record(CLI::App& app, const std::shared_ptr<RecordArguments>& a) {
   verb->add_option("--exposure", a->capture.exposure_s, "Shutter time, s (default: automatic)");
   verb->add_option("--gain", a->capture.gain, "Gain, the camera's own unit (default: automatic)");
   verb->add_option_function<std::string>(
+      "--trigger",
+      [a](const std::string& source) {
+        if (!a->capture.trigger) a->capture.trigger.emplace();
+        a->capture.trigger->source = source;
+      },
+      "What starts each picture of a FireWire camera: its input 0 to 3, or software (default: "
+      "none)");
+  verb->add_option_function<std::string>(
       "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
       "Template rectangle x,y,w,h of the description, px (default: the middle)");
   verb->add_option("--queue", a->queue, "Pictures that may wait for the disk (default 100)")

@@ -47,7 +47,8 @@ std::optional<Frame> LiveSource::next() {
   }
   const double silent_s = monotonic_clock_s() - since_s;
   if (!last_image_s_ || silent_s > options_.give_up_s) {
-    const std::string trouble = reader_->status().trouble;
+    std::string trouble = reader_->status().trouble;
+    if (trouble.empty() && !skipped_.empty()) trouble = skipped_.back();  // it may be open again
     throw std::runtime_error(
         fmt::format("{}: no picture for {:.3g} s; check the camera and its "
                     "connection{}",
