@@ -138,7 +138,7 @@ TEST_F(Dc1394, SaysWhatTheTriggerCannotDo) {
   EXPECT_THAT(failure_of("", wish), HasSubstr("trigger.polarity: that of this camera cannot be"));
   inject("no_trigger_feature");
   EXPECT_THAT(failure_of("", wish), HasSubstr("trigger: the camera has none; remove the key"));
-  EXPECT_EQ(failure_of("", {}), "");
+  EXPECT_EQ(failure_of("", {}), "nothing was thrown");
 }
 
 // The stand-in fails when it is asked for a picture before the last one came.
@@ -163,14 +163,14 @@ TEST_F(Dc1394, SaysThatNoTriggerComes) {
   inject("no_trigger");
   LiveOptions options;
   options.capture.trigger = TriggerSettings{"1", 0, ""};
-  options.open_timeout_s = 0.6;
+  options.open_timeout_s = 0.25;
   options.stall_timeout_s = 0.1;
   options.retry_s = options.longest_retry_s = 0.02;
   const auto source = open_live("dc1394", options);
   const double start_s = monotonic_clock_s();
   EXPECT_THAT(message_of([&] { source->next(); }),
               HasSubstr("no trigger within 0.1 s (source 1, mode 0); check its cable"));
-  EXPECT_LT(monotonic_clock_s() - start_s, 10);  // and not for ever: 0.6 s, and time to be busy
+  EXPECT_LT(monotonic_clock_s() - start_s, 10);  // and not for ever
   EXPECT_GE(live_status(*source)->connections, 1);
   inject("none");  // it comes
   while (!has_image(*source->next())) continue;

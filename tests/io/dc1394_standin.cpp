@@ -117,9 +117,8 @@ dc1394error_t dc1394_video_set_iso_speed(dc1394camera_t*, dc1394speed_t) { retur
 dc1394error_t dc1394_video_get_supported_modes(dc1394camera_t*, dc1394video_modes_t* modes) {
   modes->num = 2;
   modes->modes[0] = DC1394_VIDEO_MODE_640x480_YUV411;
-  modes->modes[1] =
-      fault("odd_modes") ? DC1394_VIDEO_MODE_160x120_YUV444 : DC1394_VIDEO_MODE_640x480_MONO8;
-  if (fault("odd_modes")) modes->modes[0] = DC1394_VIDEO_MODE_160x120_YUV444;
+  modes->modes[1] = fault("odd_modes") ? DC1394_VIDEO_MODE_EXIF : DC1394_VIDEO_MODE_640x480_MONO8;
+  if (fault("odd_modes")) modes->modes[0] = DC1394_VIDEO_MODE_EXIF;
   if (fault("format7") || only_coding() >= 0) {
     modes->num = 1;
     modes->modes[0] = DC1394_VIDEO_MODE_FORMAT7_0;
