@@ -60,8 +60,8 @@ TEST_P(Lenses, HoverIsTheSame) {
   std::printf("held to %.3f m, %.2f deg; %zu frames\n", last_largest(position),
               last_largest(yaw) * 180 / M_PI, position.size());
   EXPECT_GT(position.front(), 3.0);
-  // 0.2 % of the distance. Aligned through the lens both hold to 3 mm, which is what half a
-  // hundredth of a pixel in the corners makes of the least visible motion (right against a turn),
+  // 0.2 % of the distance. Aligned through the lens both hold to 3 mm, which is what two
+  // hundredths of a pixel in the corners make of the least visible motion (right against a turn),
   // however strong the lens; with a homography fitted to what it bends to 2 cm.
   EXPECT_LE(last_largest(position), 0.01);
   EXPECT_LE(last_largest(yaw), 0.002);

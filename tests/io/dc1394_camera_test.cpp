@@ -87,6 +87,17 @@ TEST_F(Dc1394, SetsWhatIsAskedFor) {
   EXPECT_THAT(failure_of("", wish), HasSubstr("cannot send a picture of 1024x768; it has"));
 }
 
+TEST_F(Dc1394, TakesTheHighestSpeedOfTheBus) {
+  open_dc1394("", {});
+  EXPECT_EQ(told<int>("kestrel_dc1394_speed"), DC1394_ISO_SPEED_400);
+  inject("b_mode");
+  open_dc1394("", {});
+  EXPECT_EQ(told<int>("kestrel_dc1394_speed"), DC1394_ISO_SPEED_800);
+  inject("no_800");
+  open_dc1394("", {});
+  EXPECT_EQ(told<int>("kestrel_dc1394_speed"), DC1394_ISO_SPEED_400);
+}
+
 TEST_F(Dc1394, ReadsEveryFormatItNames) {
   const std::vector<std::pair<const char*, int>> formats = {
       {"mono8", DC1394_COLOR_CODING_MONO8},   {"mono16", DC1394_COLOR_CODING_MONO16},
