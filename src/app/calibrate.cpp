@@ -12,6 +12,7 @@
 #include "kestrel/io/run_folder.hpp"
 
 #include "calibrate_views.hpp"
+#include "source_options.hpp"
 #include "verbs.hpp"
 
 namespace kestrel::app {
@@ -82,6 +83,7 @@ void add_calibrate(CLI::App& app, const std::shared_ptr<CalibrateArguments>& a) 
   verb->add_option("--views", a->views,
                    "How many views to collect from a video or camera, 4 to 60 (default 12)")
       ->check(CLI::Range(4, 60));
+  add_capture(*verb, {a, &a->capture});
   verb->add_flag_callback(
       "--display", [a] { a->guide = Guide::Window; },
       "Of a video or camera, show in a window the board that is seen, where views are kept and "
@@ -99,7 +101,7 @@ int run(const CalibrateArguments& a) {
   const Task task = task_of(a);
   GuideOptions guide;
   guide.views = a.views;
-  const ViewCollector views = collect_views(task.inputs, task.board, guide, a.guide);
+  const ViewCollector views = collect_views(task.inputs, task.board, guide, {a.guide, a.capture});
   if (views.size().width == 0)
     throw std::runtime_error("not one picture could be read; look at the lines above");
   CalibrationJob job{task.board, a.model, views.size(), views.views(), a.cross_check};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kestrel/calibration/calibration_job.hpp"
+#include "kestrel/io/live_options.hpp"
 
 #include "compare.hpp"
 
@@ -26,6 +27,7 @@ struct CalibrateArguments {
   std::filesystem::path output;  // empty: runs/calibrate
   std::string name = "Camera";   // of the camera, in the files
   int views = 12;                // to collect from a video or camera
+  CaptureSettings capture;       // of a live camera
   Guide guide = Guide::Lines;
   CrossCheck cross_check = CrossCheck::Visp;
   Printed printed = Printed::Tables;

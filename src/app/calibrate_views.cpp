@@ -93,15 +93,17 @@ class GuideView {
   std::unique_ptr<Window> window_;
 };
 
-void look_at_frames(const std::string& input, ViewCollector& views, Guide guide) {
+void look_at_frames(const std::string& input, ViewCollector& views, const LiveCapture& wanted) {
   SequenceOptions recorded;
   recorded.input = input;
   const bool live = is_camera(input);
-  const auto source = live ? open_camera(input) : open_sequence(recorded);
+  LiveOptions options;
+  options.capture = wanted.capture;
+  const auto source = live ? open_camera(input, options) : open_sequence(recorded);
   Progress progress(source->frame_count());
   std::vector<std::string> missing;
   std::string last_hint;
-  GuideView window(guide);
+  GuideView window(wanted.guide);
   while (!interrupted()) {
     const auto frame = source->next();
     if (!frame) break;
@@ -128,7 +130,7 @@ void look_at_frames(const std::string& input, ViewCollector& views, Guide guide)
 }  // namespace
 
 ViewCollector collect_views(const std::vector<std::string>& inputs, const Board& board,
-                            const GuideOptions& options, Guide guide) {
+                            const GuideOptions& options, const LiveCapture& live) {
   std::vector<fs::path> pictures;
   std::string moving;
   for (const std::string& input : inputs) {
@@ -139,6 +141,11 @@ ViewCollector collect_views(const std::vector<std::string>& inputs, const Board&
   if (!moving.empty() && inputs.size() > 1)
     throw std::runtime_error(moving +
                              ": a video or camera stands alone; give it as the only input");
+  if (!live.capture.is_empty() && (moving.empty() || !is_camera(moving)))
+    throw std::invalid_argument(
+        "--format, --size, --rate, --exposure, --gain and --trigger are for a live camera; "
+        "pictures "
+        "and videos are as they were taken");
   const Choose choose = moving.empty()      ? Choose::All
                         : is_camera(moving) ? Choose::Live
                                             : Choose::Guided;
@@ -146,7 +153,7 @@ ViewCollector collect_views(const std::vector<std::string>& inputs, const Board&
   if (moving.empty()) {
     look_at_pictures(pictures, views);
   } else {
-    look_at_frames(moving, views, guide);
+    look_at_frames(moving, views, live);
   }
   return views;
 }

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@ struct Listed {
   std::string name;
   std::string bus;
   std::vector<CameraMode> modes;
+  std::optional<TriggerAbility> trigger;
   std::string trouble;
 };
 
@@ -23,10 +26,10 @@ std::vector<Listed> connected() {
   std::vector<Listed> all;
   for (const V4l2Listing& c : list_v4l2()) {
     const std::string number = c.path.substr(std::string("/dev/video").size());
-    all.push_back({"camera:" + number, c.name, c.bus, c.modes, c.trouble});
+    all.push_back({"camera:" + number, c.name, c.bus, c.modes, {}, c.trouble});
   }
   for (const Dc1394Listing& c : list_dc1394())
-    all.push_back({"dc1394:" + c.guid, c.name, "FireWire", c.modes, c.trouble});
+    all.push_back({"dc1394:" + c.guid, c.name, "FireWire", c.modes, c.trigger, c.trouble});
   return all;
 }
 
@@ -35,6 +38,7 @@ void print_text(const std::vector<Listed>& cameras) {
     fmt::print("{}  {}{}\n", c.address, c.name, c.bus.empty() ? "" : " (" + c.bus + ")");
     if (!c.trouble.empty()) fmt::print("  {}\n", c.trouble);
     for (const CameraMode& mode : c.modes) fmt::print("  {}\n", to_string(mode));
+    if (c.trigger) fmt::print("  trigger: {}\n", to_string(*c.trigger));
   }
   if (cameras.empty()) {
     fmt::print(
@@ -58,6 +62,10 @@ void print_json(const std::vector<Listed>& cameras) {
                     {"bus", c.bus},
                     {"modes", modes},
                     {"trouble", c.trouble}});
+    if (!c.trigger) continue;
+    list.back()["trigger"] = {{"sources", c.trigger->sources},
+                              {"modes", c.trigger->modes},
+                              {"has_polarity", c.trigger->has_polarity}};
   }
   constexpr int kIndent = 2;
   // A name that is no UTF-8 is shown with its bytes replaced.

@@ -7,6 +7,7 @@
 #include "kestrel/io/csv.hpp"
 #include "kestrel/io/mount_file.hpp"
 #include "kestrel/io/mount_picture.hpp"
+#include "kestrel/io/mount_sketch.hpp"
 #include "kestrel/loop/mount_response.hpp"
 
 namespace kestrel::app {
@@ -31,6 +32,10 @@ void draw(const fs::path& file, const Mount& mount, const std::optional<Camera>&
   say("drawn", picture.string());
 }
 
+void sketch(const Mount& mount) {
+  for (const std::string& line : mount_sketch(mount)) say("", line);
+}
+
 void say_responses(const Task& task) {
   for (const MountResponse& response : mount_responses(task)) say("", describe(response));
 }
@@ -41,6 +46,7 @@ void say(const char* what, const std::string& text) { fmt::print("  {:<12} {}\n"
 
 void say_mount(const Task& task, const fs::path& file, const fs::path& drawings) {
   say("mount", describe(task.body_from_camera));
+  sketch(task.body_from_camera);
   say_responses(task);
   draw(file, task.body_from_camera, task.camera, drawings);
 }
@@ -48,6 +54,7 @@ void say_mount(const Task& task, const fs::path& file, const fs::path& drawings)
 void check_mount(const fs::path& file, const fs::path& drawings) {
   const Mount mount = load_mount(file);
   fmt::print("{}: a mount: {}\n", file.string(), describe(mount));
+  sketch(mount);
   say_responses(task_with_mount(mount));
   draw(file, mount, std::nullopt, drawings);
 }

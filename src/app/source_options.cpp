@@ -21,6 +21,26 @@ PixelBox parse_roi(const std::string& text) {
   return {value[0], value[1], value[2], value[3]};
 }
 
+void add_capture(CLI::App& verb, const std::shared_ptr<CaptureSettings>& capture) {
+  verb.add_option("--format", capture->format,
+                  "Format of the camera, as 'kestrel cameras' names it (default: the best)");
+  verb.add_option_function<std::vector<int>>(
+          "--size", [capture](const std::vector<int>& s) { capture->size = cv::Size(s[0], s[1]); },
+          "Width and height, px (default: 640 480 or what is nearest)")
+      ->expected(2);
+  verb.add_option("--rate", capture->rate_hz, "Pictures per second, at least (default: most)");
+  verb.add_option("--exposure", capture->exposure_s, "Shutter time, s (default: automatic)");
+  verb.add_option("--gain", capture->gain, "Gain, the camera's own unit (default: automatic)");
+  verb.add_option_function<std::string>(
+      "--trigger",
+      [capture](const std::string& source) {
+        if (!capture->trigger) capture->trigger.emplace();
+        capture->trigger->source = source;
+      },
+      "What starts each picture of a FireWire camera: its input 0 to 3, or software (default: "
+      "none)");
+}
+
 void add_cameras(CLI::App& app, const std::shared_ptr<CamerasArguments>& a) {
   auto* verb =
       app.add_subcommand("cameras", "List the V4L2 and FireWire cameras and what each can send");
@@ -41,15 +61,7 @@ void add_record(CLI::App& app, const std::shared_ptr<RecordArguments>& a) {
       ->check(CLI::PositiveNumber);
   verb->add_option("--frames", a->frames, "Stop after this many pictures (default: on Ctrl-C)")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--format", a->capture.format,
-                   "Format of the camera, as 'kestrel cameras' names it (default: the best)");
-  verb->add_option_function<std::vector<int>>(
-          "--size", [a](const std::vector<int>& s) { a->capture.size = cv::Size(s[0], s[1]); },
-          "Width and height, px (default: 640 480 or what is nearest)")
-      ->expected(2);
-  verb->add_option("--rate", a->capture.rate_hz, "Pictures per second, at least (default: most)");
-  verb->add_option("--exposure", a->capture.exposure_s, "Shutter time, s (default: automatic)");
-  verb->add_option("--gain", a->capture.gain, "Gain, the camera's own unit (default: automatic)");
+  add_capture(*verb, {a, &a->capture});
   verb->add_option_function<std::string>(
       "--roi", [a](const std::string& text) { a->roi = parse_roi(text); },
       "Template rectangle x,y,w,h of the description, px (default: the middle)");

@@ -12,6 +12,7 @@
 #include "kestrel/io/sequence_file.hpp"
 #include "kestrel/io/source_address.hpp"
 #include "kestrel/io/text_file.hpp"
+#include "kestrel/vision/straight_template.hpp"
 
 #include "simulated_camera.hpp"
 
@@ -127,8 +128,8 @@ Tracker learn_template(const Experiment& experiment, const Frame& first) {
     const PixelBox all{0, 0, double(picture.cols), double(picture.rows)};
     return {picture, experiment.template_px.value_or(all), track};
   }
-  return {first.gray, experiment.template_px ? *experiment.template_px : ask_rectangle(first),
-          track};
+  const PixelBox box = experiment.template_px ? *experiment.template_px : ask_rectangle(first);
+  return {straight_template(first.gray, box, experiment.task.camera), box, track};
 }
 
 PixelBox ask_rectangle(const Frame& first) {

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "kestrel/eval/track_metrics.hpp"
-#include "kestrel/geometry/straight_view.hpp"
 #include "kestrel/io/camera_file.hpp"
 #include "kestrel/io/overlay.hpp"
 #include "kestrel/io/truth_file.hpp"
+#include "kestrel/vision/straight_template.hpp"
 #include "kestrel/vision/tracker.hpp"
 
 #include "ground.hpp"
@@ -27,12 +27,25 @@ struct PoseSetup {
   PlaneSize size;
 };
 
-std::optional<PoseSetup> pose_setup(const TrackJob& job, const Template& model,
-                                    const Frame& first) {
-  if (job.camera.empty() || job.size_m.size() != 2) return std::nullopt;
+std::optional<Camera> camera_of(const TrackJob& job, const Frame& first) {
+  if (job.camera.empty()) return std::nullopt;
   const Camera camera = load_camera(job.camera, job.camera_name);
   require_resolution(camera, first.gray.cols, first.gray.rows, job.camera);
-  return PoseSetup{camera, {model.width(), model.height(), job.size_m[0], job.size_m[1]}};
+  return camera;
+}
+
+std::optional<PoseSetup> pose_setup(const TrackJob& job, const std::optional<Camera>& camera,
+                                    const Template& model) {
+  if (!camera || job.size_m.size() != 2) return std::nullopt;
+  return PoseSetup{*camera, {model.width(), model.height(), job.size_m[0], job.size_m[1]}};
+}
+
+Tracker learned(const TrackJob& job, const Frame& first, TrackOptions options,
+                const std::optional<Camera>& camera) {
+  const PixelBox box = job.roi ? *job.roi : ask_rectangle(first);
+  if (!camera || camera->parameters().lens == Lens::Pinhole) return {first.gray, box, options};
+  options.lens = camera;
+  return {straight_template(first.gray, box, *camera), box, options};
 }
 
 /// The map of the first frame's image to this frame's.
@@ -108,8 +121,7 @@ class TrackRun {
   void add_pose(const Track& seen, LogRow& row) {
     if (!pose_setup_ || !seen.found()) return;
     const PlaneSize& size = pose_setup_->size;
-    const auto view = straight_view(*seen.image_from_template, size.width_px, size.height_px,
-                                    pose_setup_->camera);
+    const auto view = straight_view(seen, size.width_px, size.height_px, pose_setup_->camera);
     if (!view) return;
     const auto pose = plane_pose(view->image_from_template, size, view->camera, last_pose_);
     if (!pose) return;
@@ -198,8 +210,9 @@ int run(const TrackArguments& a) {
   const Frame first = first_frame(*source, a.input);
   TrackOptions options;
   options.method = a.method;
-  Tracker tracker(first.gray, job.roi ? *job.roi : ask_rectangle(first), options);
-  const auto pose = pose_setup(job, tracker.model(), first);
+  const auto camera = camera_of(job, first);
+  Tracker tracker = learned(job, first, options, camera);
+  const auto pose = pose_setup(job, camera, tracker.model());
   const TrackTruth truth = job.truth.empty() ? TrackTruth{} : TrackTruth(load_truth(job.truth));
   RecorderOptions wanted =
       recorder_options(a.run, {}, job.sequence.rate_hz.value_or(30), {"corner_error_px"});

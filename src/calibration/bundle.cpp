@@ -56,13 +56,19 @@ std::optional<std::vector<PointResidual>> residuals(const BoardView& view,
 }
 
 std::optional<BundleFit> bundle(const BundleProblem& problem, const BundleState& start) {
-  BundleFit fit{start, sum_px2(problem, start), {}};
+  return minimum({[&](const BundleState& state) { return sum_px2(problem, state); },
+                  [&](const BundleState& state) { return all_blocks(problem, state); }},
+                 start);
+}
+
+std::optional<BundleFit> minimum(const BundleTerms& terms, const BundleState& start) {
+  BundleFit fit{start, terms.sum_px2(start), {}};
   if (!std::isfinite(fit.sum_px2)) return std::nullopt;
-  auto views = all_blocks(problem, fit.state);
+  auto views = terms.blocks(fit.state);
   double damping = 1e-6;
   for (int k = 0; k < kMaxSteps && views && damping < 1e12; ++k) {
     const BundleState next = stepped(fit.state, *views, damping);
-    const double sum = sum_px2(problem, next);
+    const double sum = terms.sum_px2(next);
     if (!(sum < fit.sum_px2)) {
       damping *= 10;
       continue;
@@ -71,7 +77,7 @@ std::optional<BundleFit> bundle(const BundleProblem& problem, const BundleState&
     fit.state = next;
     fit.sum_px2 = sum;
     damping /= 10;
-    views = all_blocks(problem, fit.state);
+    views = terms.blocks(fit.state);
     if (done) break;
   }
   if (views) fit.inverse = inverse_of(reduced(*views, 0).S);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,20 @@ struct BundleFit {
   Eigen::MatrixXd inverse;
 };
 
-/// The minimum at the start, by Levenberg and Marquardt; empty when the start puts a point behind
-/// the camera or beyond the lens.
+struct ViewBlocks;
+
+/// A sum of squares over values and poses, px^2 (not finite where a point is put nowhere), and its
+/// normal equations, one a view.
+struct BundleTerms {
+  std::function<double(const BundleState&)> sum_px2;
+  std::function<std::optional<std::vector<ViewBlocks>>(const BundleState&)> blocks;
+};
+
+/// The minimum at the start, by Levenberg and Marquardt; empty when the sum is not finite there.
+std::optional<BundleFit> minimum(const BundleTerms& terms, const BundleState& start);
+
+/// The minimum of the pixels' least squares; empty when the start puts a point behind the camera or
+/// beyond the lens.
 std::optional<BundleFit> bundle(const BundleProblem& problem, const BundleState& start);
 
 /// The pose of a view under this camera, in the least squares of the pixels, and those; empty when

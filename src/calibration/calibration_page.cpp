@@ -143,10 +143,13 @@ std::vector<ReportSection> sections(const CalibrationResult& result) {
                  {view_bars(c)},
                  {view_table(result)}});
   if (!result.visp) return all;
-  all.push_back({"ViSP's answer",
-                 "ViSP's calibration of the same views beside ours, both with ViSP's lens model.",
-                 {},
-                 {visp_table(result)}});
+  all.push_back(
+      {"ViSP's answer",
+       "ViSP's calibration of the same views beside our minimum of the same sum of squares. "
+       "With a lens that sum is ViSP's own: kud and kdu are fitted at once, each to every "
+       "point. So this lens is not the one above; the two programs must agree on it.",
+       {},
+       {visp_table(result)}});
   return all;
 }
 

@@ -97,12 +97,13 @@ ReportTable view_table(const CalibrationResult& result) {
 }
 
 ReportTable visp_table(const CalibrationResult& result) {
-  ReportTable table{"ViSP's calibration of the same views",
-                    {"parameter", "ViSP", "ours, same model", "difference", "our deviation"},
-                    {}};
+  ReportTable table{
+      "ViSP's calibration of the same views",
+      {"parameter", "ViSP", "ours, same sum of squares", "difference", "our deviation"},
+      {}};
   if (!result.visp) return table;
   const VispCheck& check = *result.visp;
-  const std::vector<double> theirs = values_of(check.ours.model, check.visp);
+  const std::vector<double> theirs = visp_values(check);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     const ParameterEstimate& mine = check.ours.parameters[i];
     table.rows.push_back({mine.name, digits(theirs[i]), digits(mine.value),

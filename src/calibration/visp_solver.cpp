@@ -5,6 +5,7 @@
 
 #include "kestrel/io/module.hpp"
 
+#include "visp_bundle.hpp"
 #include "visp_module.hpp"
 
 namespace kestrel {
@@ -37,6 +38,15 @@ double rms_px(const std::vector<BoardView>& views, const Board& board, const Cam
   return std::sqrt(sum_px2 / double(points));
 }
 
+/// The camera by its way to the pixel alone: a pinhole's inverse is exact, kdu is not.
+Camera outward(CameraParameters camera) {
+  if (camera.lens == Lens::VispRadial) {
+    camera.lens = Lens::PlumbBob;
+    camera.distortion = {camera.distortion[0]};
+  }
+  return Camera(camera);
+}
+
 bool is_sound(const CameraParameters& p) {
   return std::isfinite(p.px) && std::isfinite(p.py) && std::isfinite(p.u0) && std::isfinite(p.v0) &&
          p.px > 0 && p.py > 0 && std::isfinite(p.distortion[0]) && std::isfinite(p.distortion[1]);
@@ -44,12 +54,28 @@ bool is_sound(const CameraParameters& p) {
 
 }  // namespace
 
+std::vector<double> visp_values(const VispCheck& check) {
+  const CameraParameters& c = check.visp;
+  std::vector<double> values{c.px, c.py, c.u0, c.v0};
+  if (c.lens == Lens::VispRadial) {
+    values.push_back(c.distortion[0]);
+    values.push_back(c.distortion[1]);
+  }
+  return values;
+}
+
 std::optional<VispCheck> visp_check(const std::vector<BoardView>& views, const Board& board,
                                     ImageSize size, CameraModel model) {
   if (model == CameraModel::KannalaBrandt) return std::nullopt;
   const bool straight = model == CameraModel::None;
   VispCheck check;
   check.ours = solve_camera(views, board, size, straight ? CameraModel::None : CameraModel::Radial);
+  if (!straight) {
+    const auto same = solve_as_visp(views, board, check.ours);
+    if (!same) return std::nullopt;
+    check.ours = *same;
+    check.ours.rms_px = rms_px(views, board, outward(check.ours.camera));
+  }
   // ViSP begins at a plain guess, not at our answer: it is to find the camera by itself.
   CameraParameters start{600.0 * size.width / 640,
                          600.0 * size.width / 640,
@@ -62,12 +88,8 @@ std::optional<VispCheck> visp_check(const std::vector<BoardView>& views, const B
           .calibrate(visp_views(views, board), start, straight ? Lens::Pinhole : Lens::VispRadial);
   if (!found || !is_sound(*found)) return std::nullopt;
   check.visp = *found;
-  // Only the way to the pixel counts: a pinhole's inverse is exact, kdu is not.
-  CameraParameters forward = *found;
-  forward.lens = straight ? Lens::Pinhole : Lens::PlumbBob;
-  forward.distortion = {found->distortion[0]};
-  check.visp_rms_px = rms_px(views, board, Camera(forward));
-  const std::vector<double> theirs = values_of(CameraModel::None, *found);
+  check.visp_rms_px = rms_px(views, board, outward(*found));
+  const std::vector<double> theirs = visp_values(check);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     const ParameterEstimate& mine = check.ours.parameters[i];
     check.largest_deviations =

@@ -8,6 +8,7 @@
 
 #include "kestrel/geometry/plane_pose.hpp"
 #include "kestrel/ground/ground_desk.hpp"
+#include "kestrel/vision/straight_template.hpp"
 
 namespace kestrel {
 namespace {
@@ -118,12 +119,13 @@ double GroundDesk::likely_width_m(const PixelBox& box, const GroundView& view) c
 Reply GroundDesk::examine(const PixelBox& box, Lock& lock) {
   const auto view = frozen_;
   const TrackOptions options = task_.track;
+  const Camera camera = task_.camera;
   if (!view) return {refused("freeze a picture first"), {}, {}, {}};
   lock.unlock();  // learning takes a while, and abort must not wait for it
   std::optional<Tracker> tracker;
   Reply reply;
   try {
-    tracker.emplace(view->gray, box, options);
+    tracker.emplace(straight_template(view->gray, box, camera), box, options);
     reply.verdict = template_verdict(tracker->model(), options);
     reply.answer = done(reply.verdict->words);
   } catch (const std::invalid_argument& error) {

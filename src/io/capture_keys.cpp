@@ -21,6 +21,13 @@ CaptureSettings read_capture(const Section& s) {
   if (s.has("rate_hz")) c.rate_hz = s.number("rate_hz");
   if (s.has("exposure_s")) c.exposure_s = s.number("exposure_s");
   if (s.has("gain")) c.gain = s.number("gain");
+  if (const auto t = s.child_if("trigger")) {
+    TriggerSettings trigger;
+    trigger.source = t->text("source", trigger.source);
+    trigger.mode = t->whole("mode", trigger.mode);
+    trigger.polarity = t->text("polarity", trigger.polarity);
+    c.trigger = trigger;
+  }
   return c;
 }
 

@@ -16,14 +16,22 @@ std::string name_of(dc1394color_coding_t coding) {
   switch (coding) {
     case DC1394_COLOR_CODING_MONO8:
       return "mono8";
+    case DC1394_COLOR_CODING_MONO16:
+      return "mono16";
     case DC1394_COLOR_CODING_YUV422:
       return "yuv422";
+    case DC1394_COLOR_CODING_YUV444:
+      return "yuv444";
     case DC1394_COLOR_CODING_YUV411:
       return "yuv411";
     case DC1394_COLOR_CODING_RGB8:
       return "rgb8";
+    case DC1394_COLOR_CODING_RGB16:
+      return "rgb16";
     case DC1394_COLOR_CODING_RAW8:
       return "raw8";
+    case DC1394_COLOR_CODING_RAW16:
+      return "raw16";
     default:
       return "";
   }
@@ -56,7 +64,7 @@ std::optional<Mode> usual_mode(dc1394camera_t& camera, dc1394video_mode_t id) {
   return Mode{{name_of(coding), {int(width), int(height)}, rates_of(camera, id)}, id, coding};
 }
 
-/// Of Format7: the whole picture in mono8 or raw8. How fast it is the camera does not say.
+/// Of Format7: the whole picture. How fast it is the camera does not say.
 std::vector<Mode> scalable_modes(dc1394camera_t& camera, dc1394video_mode_t id) {
   std::vector<Mode> modes;
   std::uint32_t width = 0;
@@ -67,7 +75,7 @@ std::vector<Mode> scalable_modes(dc1394camera_t& camera, dc1394video_mode_t id) 
     return modes;
   for (std::uint32_t i = 0; i < codings.num; ++i) {
     const dc1394color_coding_t coding = codings.codings[i];
-    if (coding != DC1394_COLOR_CODING_MONO8 && coding != DC1394_COLOR_CODING_RAW8) continue;
+    if (name_of(coding).empty()) continue;
     modes.push_back({{name_of(coding), {int(width), int(height)}, {}}, id, coding});
   }
   return modes;
@@ -131,7 +139,8 @@ std::uint64_t guid_of(const dc1394camera_list_t& list, const std::string& wanted
 }
 
 const std::vector<std::string>& formats() {
-  static const std::vector<std::string> all = {"mono8", "yuv422", "yuv411", "rgb8", "raw8"};
+  static const std::vector<std::string> all = {"mono8", "mono16", "yuv422", "yuv444", "yuv411",
+                                               "rgb8",  "rgb16",  "raw8",   "raw16"};
   return all;
 }
 

@@ -7,11 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core.hpp>
-
-#include "kestrel/io/raw_picture.hpp"
-
 #include "dc1394_bus.hpp"
+#include "dc1394_picture.hpp"
+#include "dc1394_trigger.hpp"
 
 namespace kestrel {
 namespace {
@@ -22,6 +20,8 @@ using iidc::require;
 constexpr std::uint32_t kBuffers = 4;
 constexpr auto kPollInterval = std::chrono::milliseconds(1);
 constexpr double kWait_s = 0.1;
+constexpr double kLongestShot_s =
+    1;                            // from a software trigger to its picture, but for the exposure
 constexpr double kOldest_s = 10;  // a stamp older than that is wrong
 
 iidc::Bus opened_bus() {
@@ -63,12 +63,18 @@ class Loan {
 
 class Dc1394Camera : public CameraDevice {
  public:
-  Dc1394Camera(const std::string& guid, const CaptureSettings& settings) : bus_(opened_bus()) {
+  Dc1394Camera(const std::string& guid, const CaptureSettings& settings)
+      : bus_(opened_bus()), trigger_(settings.trigger) {
     camera_.reset(dc1394_camera_new(bus_.get(), iidc::guid_of(*iidc::cameras_on(*bus_), guid)));
     if (!camera_) fail("the camera cannot be opened; check the permissions of /dev/fw*");
     choose(settings);
     set_feature(*camera_, DC1394_FEATURE_SHUTTER, settings.exposure_s, "exposure_s");
     set_feature(*camera_, DC1394_FEATURE_GAIN, settings.gain, "gain");
+    iidc::set_trigger(*camera_, trigger_);
+    if (trigger_ && trigger_->source == "software") {
+      by_software_.emplace(settings.rate_hz.value_or(0),
+                           kLongestShot_s + settings.exposure_s.value_or(0));
+    }
     require(dc1394_capture_setup(camera_.get(), kBuffers, DC1394_CAPTURE_FLAGS_DEFAULT),
             "reserving the bus");
     const dc1394error_t error = dc1394_video_set_transmission(camera_.get(), DC1394_ON);
@@ -86,6 +92,7 @@ class Dc1394Camera : public CameraDevice {
   /// ever.
   std::optional<Picture> next() override {
     for (const double until_s = monotonic_clock_s() + kWait_s; monotonic_clock_s() < until_s;) {
+      if (by_software_) by_software_->ask(*camera_, monotonic_clock_s());
       dc1394video_frame_t* raw = nullptr;
       require(dc1394_capture_dequeue(camera_.get(), DC1394_CAPTURE_POLICY_POLL, &raw),
               "taking a frame; check the cable");
@@ -93,6 +100,7 @@ class Dc1394Camera : public CameraDevice {
         std::this_thread::sleep_for(kPollInterval);
         continue;
       }
+      if (by_software_) by_software_->picture_came();
       Loan loan(*camera_, *raw);
       Picture picture = picture_of(*raw);
       loan.give_back();
@@ -102,6 +110,11 @@ class Dc1394Camera : public CameraDevice {
   }
 
   CaptureClock clock() const override { return clock_; }
+
+  std::string silence(double seconds) const override {
+    const bool is_from_outside = trigger_ && !by_software_;
+    return is_from_outside ? iidc::no_trigger(*trigger_, seconds) : CameraDevice::silence(seconds);
+  }
 
  private:
   void choose(const CaptureSettings& settings) {
@@ -120,7 +133,7 @@ class Dc1394Camera : public CameraDevice {
              mode.mode.rates_hz == chosen.mode.rates_hz;
     });
     iidc::set_mode(*camera_, *it, chosen.rate_hz);
-    if (it->coding == DC1394_COLOR_CODING_RAW8)
+    if (it->coding == DC1394_COLOR_CODING_RAW8 || it->coding == DC1394_COLOR_CODING_RAW16)
       require(dc1394_format7_get_color_filter(camera_.get(), it->id, &pattern_),
               "asking for the pattern of its colours");
   }
@@ -133,7 +146,7 @@ class Dc1394Camera : public CameraDevice {
       picture.damage = "arrived corrupt";
       return picture;
     }
-    picture.gray = gray_of_frame(raw);
+    picture.gray = iidc::gray_of(raw, pattern_);
     return picture;
   }
 
@@ -147,30 +160,12 @@ class Dc1394Camera : public CameraDevice {
     return monotonic_clock_s() - (is_true ? age_s : 0);
   }
 
-  /// The frame's pixels, copied out of the ring buffer.
-  cv::Mat gray_of_frame(const dc1394video_frame_t& raw) const {
-    const cv::Size size(int(raw.size[0]), int(raw.size[1]));
-    cv::Mat gray(size, CV_8UC1);
-    if (raw.color_coding == DC1394_COLOR_CODING_MONO8) {
-      cv::Mat(size, CV_8UC1, raw.image, raw.stride).copyTo(gray);
-    } else if (raw.color_coding == DC1394_COLOR_CODING_RAW8) {
-      cv::Mat rgb(size, CV_8UC3);
-      require(dc1394_bayer_decoding_8bit(raw.image, rgb.data, raw.size[0], raw.size[1], pattern_,
-                                         DC1394_BAYER_METHOD_BILINEAR),
-              "decoding the pattern of its colours");
-      return gray_of(RawFormat::Rgb24, {rgb.data, rgb.total() * 3, 0}, size);
-    } else {
-      require(dc1394_convert_to_MONO8(raw.image, gray.data, raw.size[0], raw.size[1],
-                                      raw.yuv_byte_order, raw.color_coding, raw.data_depth),
-              "turning a frame to grey");
-    }
-    return gray;
-  }
-
   iidc::Bus bus_;
   iidc::Camera camera_;
   dc1394color_filter_t pattern_ = DC1394_COLOR_FILTER_RGGB;
   CaptureClock clock_ = CaptureClock::Driver;
+  std::optional<TriggerSettings> trigger_;
+  std::optional<iidc::SoftwareTrigger> by_software_;
 };
 
 }  // namespace

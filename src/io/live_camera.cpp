@@ -13,6 +13,10 @@ namespace {
 OpenCamera opener(const SourceAddress& source, const LiveOptions& options) {
   const std::string place = source.place;
   const CaptureSettings capture = options.capture;
+  if (source.kind == SourceKind::V4l2 && capture.trigger)
+    throw std::invalid_argument(source.text +
+                                ": trigger: only a FireWire camera (dc1394) is triggered from "
+                                "here; remove the key");
   if (source.kind == SourceKind::V4l2) {
     return [place, capture](const StopAsked&, double) { return open_v4l2(place, capture); };
   }

@@ -1,6 +1,7 @@
 #include "kestrel/io/live_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,17 +17,29 @@ void require_positive(const char* key, const char* unit, double value) {
           std::string(key) + ": must be positive and finite (" + unit + ")");
 }
 
+void check_trigger(const TriggerSettings& t) {
+  constexpr std::array<const char*, 5> kSources = {"0", "1", "2", "3", "software"};
+  constexpr std::array<int, 8> kModes = {0, 1, 2, 3, 4, 5, 14, 15};
+  require(std::find(kSources.begin(), kSources.end(), t.source) != kSources.end(),
+          "trigger.source: must be 0, 1, 2, 3 or software");
+  require(std::find(kModes.begin(), kModes.end(), t.mode) != kModes.end(),
+          "trigger.mode: must be 0 to 5, 14 or 15");
+  require(t.polarity.empty() || t.polarity == "high" || t.polarity == "low",
+          "trigger.polarity: must be high or low");
+}
+
 void check_capture(const CaptureSettings& c) {
   if (c.size) require(c.size->width > 0 && c.size->height > 0, "size_px: must be positive (px)");
   if (c.rate_hz) require_positive("rate_hz", "1/s", *c.rate_hz);
   if (c.exposure_s) require_positive("exposure_s", "s", *c.exposure_s);
   if (c.gain) require(std::isfinite(*c.gain) && *c.gain >= 0, "gain: must be 0 or more");
+  if (c.trigger) check_trigger(*c.trigger);
 }
 
 }  // namespace
 
 bool CaptureSettings::is_empty() const {
-  return format.empty() && !size && !rate_hz && !exposure_s && !gain;
+  return format.empty() && !size && !rate_hz && !exposure_s && !gain && !trigger;
 }
 
 void LiveOptions::check() const {

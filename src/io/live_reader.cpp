@@ -67,8 +67,7 @@ void LiveSource::Reader::read_until_it_fails() {
       if (picture) {
         keep(std::move(*picture));
       } else if (monotonic_clock_s() - last_picture_s_ > options_.stall_timeout_s) {
-        return disconnected(fmt::format("{}: no picture for {} s; check the camera and its cable",
-                                        address_, options_.stall_timeout_s));
+        return disconnected(address_ + ": " + camera_->silence(options_.stall_timeout_s));
       }
     }
   } catch (const std::exception& error) {

@@ -35,8 +35,9 @@ std::optional<Frame> LiveSource::next() {
                             ? options_.open_timeout_s
                             : std::max(kTick_s, since_s + options_.blind_s - monotonic_clock_s());
   const double until_s = monotonic_clock_s() + wait_s;
-  for (double left_s = wait_s; left_s >= 0; left_s = until_s - monotonic_clock_s()) {
-    std::optional<Picture> picture = reader_->queue.take(left_s);
+  while (true) {
+    std::optional<Picture> picture =
+        reader_->queue.take(std::max(until_s - monotonic_clock_s(), 0.0));
     collect_words();
     if (!picture) break;
     // A stamp that does not increase is no capture time the loop could use: the frame counts as
@@ -47,7 +48,8 @@ std::optional<Frame> LiveSource::next() {
   }
   const double silent_s = monotonic_clock_s() - since_s;
   if (!last_image_s_ || silent_s > options_.give_up_s) {
-    const std::string trouble = reader_->status().trouble;
+    std::string trouble = reader_->status().trouble;
+    if (trouble.empty() && !skipped_.empty()) trouble = skipped_.back();  // it may be open again
     throw std::runtime_error(
         fmt::format("{}: no picture for {:.3g} s; check the camera and its "
                     "connection{}",

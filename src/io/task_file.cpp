@@ -148,17 +148,18 @@ Experiment read_experiment(const Section& root) {
   const FoundCamera found = read_camera(camera, described);
   const Mount mount = read_camera_mount(camera);
   const Section target = root.child("target");
-  const Task task{found.camera,
-                  mount,
-                  read_size(target, "width_m", 0, described),
-                  read_size(target, "height_m", 1, described),
-                  read_goal(root),
-                  read_track_options(root),
-                  read_pose_options(root),
-                  read_servo_options(root),
-                  read_command_limits(root),
-                  read_loss_options(root),
-                  read_timing_options(root)};
+  Task task{found.camera,
+            mount,
+            read_size(target, "width_m", 0, described),
+            read_size(target, "height_m", 1, described),
+            read_goal(root),
+            read_track_options(root),
+            read_pose_options(root),
+            read_servo_options(root),
+            read_command_limits(root),
+            read_loss_options(root),
+            read_timing_options(root)};
+  if (found.camera.parameters().lens != Lens::Pinhole) task.track.lens = found.camera;
   Experiment e{root.file(), source.text, read_sink(root), task, {},
                {},          {},          found.file,      {},   read_live_options(root)};
   e.sequence = read_recording(root, source, described);

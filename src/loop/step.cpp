@@ -44,10 +44,7 @@ Step step(Tracker& tracker, const Frame& frame, const LoopState& state, const Ta
   const Template& model = tracker.model();
   Step s;
   s.track = tracker.track(frame, state.track);
-  std::optional<StraightView> view;
-  if (s.track.found()) {
-    view = straight_view(*s.track.image_from_template, model.width(), model.height(), task.camera);
-  }
+  const auto view = straight_view(s.track, model.width(), model.height(), task.camera);
   if (view) {
     s.pose = plane_pose(view->image_from_template, plane_size(model, task), view->camera,
                         state.pose, task.pose);

@@ -2,6 +2,14 @@
 
 namespace kestrel {
 
+std::optional<StraightView> straight_view(const Track& track, double width_px, double height_px,
+                                          const Camera& camera) {
+  if (track.straight_from_template)
+    return StraightView{*track.straight_from_template, without_lens(camera)};
+  if (!track.found()) return std::nullopt;
+  return straight_view(*track.image_from_template, width_px, height_px, camera);
+}
+
 const char* name(TrackStatus status) {
   switch (status) {
     case TrackStatus::Found:

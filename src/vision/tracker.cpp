@@ -86,6 +86,7 @@ struct Tracker::Parts {
     t.status = TrackStatus::Found;
     t.stage = seen.stage;
     t.image_from_template = seen.at->image_from_template;
+    if (options.lens) t.straight_from_template = seen.at->straight_from_template;
     t.confidence = seen.at->agreement.shown();
     t.corner_covariance = seen.at->corner_covariance;
     const auto corners = outline(*t.image_from_template, model.width(), model.height());

@@ -48,7 +48,7 @@ TEST(ViewTable, HasALineForEachView) {
 }
 
 TEST(VispTable, HasTheModelOfViSP) {
-  EXPECT_EQ(visp_table(test::made_up_result()).rows.size(), 5u);
+  EXPECT_EQ(visp_table(test::made_up_result()).rows.size(), 6u);
   EXPECT_TRUE(visp_table(test::refused_result()).rows.empty());
 }
 

@@ -229,5 +229,27 @@ TEST_F(Calibrate, GuidesBeforeALiveCameraWithoutAWindow) {
   }
 }
 
+// A calibration holds for one size: a live camera is asked for the one that will fly.
+TEST_F(Calibrate, AsksALiveCameraForWhatItIsTold) {
+  draw(1);
+  const auto said = [&](const std::string& input, const std::string& option) {
+    const Outcome done =
+        run({input, "--board", kBoard, option, "9", "--output", "out", "--no-visp"});
+    EXPECT_EQ(done.exit_code, 1);
+    return done.err;
+  };
+  for (const std::string option : {"--rate", "--exposure", "--gain"}) {
+    EXPECT_SAYS(said("udp://127.0.0.1:45999", option), "a network stream comes as it is sent");
+    EXPECT_SAYS(said(".", option), "are for a live camera");
+  }
+  EXPECT_SAYS(run({"camera:0", "--board", kBoard, "--trigger", "0"}).err,
+              "only a FireWire camera (dc1394) is triggered");
+  const std::string standin = std::string("LD_PRELOAD=") + KESTREL_DC1394_STANDIN;
+  const Outcome odd = Program({"calibrate", "dc1394", "--board", kBoard, "--size", "1024", "768"},
+                              folder_.path(), {standin})
+                          .wait(60);
+  EXPECT_SAYS(odd.err, "cannot send a picture of 1024x768; it has");
+}
+
 }  // namespace
 }  // namespace kestrel::test

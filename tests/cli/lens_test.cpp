@@ -31,6 +31,7 @@ std::string hover_with_camera(const TempFolder& folder) {
   replace("intrinsics_px: [600, 600, 319.5, 239.5]", "file: camera_opencv.yaml");
   replace("  size_px: [640, 480]\n", "");
   replace("../calib", (source / "calib").string());
+  replace("hold_s: 2", "hold_s: 12");  // until the way there is over
   folder.write("hover.yaml", text);
   return "hover.yaml";
 }
@@ -59,11 +60,11 @@ TEST_P(Lenses, HoverIsTheSame) {
   std::printf("held to %.3f m, %.2f deg; %zu frames\n", last_largest(position),
               last_largest(yaw) * 180 / M_PI, position.size());
   EXPECT_GT(position.front(), 3.0);
-  // Half of the task's `pass`, 1 % of the distance: with the lens removed at the corners alone,
-  // where the tracked homography is farthest off, both lenses held to 5 cm and 7 cm.
-  EXPECT_LE(position.back(), 0.05);
-  EXPECT_LE(last_largest(position), 0.10);
-  EXPECT_LE(last_largest(yaw), 2 * M_PI / 180);
+  // 0.2 % of the distance. Aligned through the lens both hold to 3 mm, which is what two
+  // hundredths of a pixel in the corners make of the least visible motion (right against a turn),
+  // however strong the lens; with a homography fitted to what it bends to 2 cm.
+  EXPECT_LE(last_largest(position), 0.01);
+  EXPECT_LE(last_largest(yaw), 0.002);
 }
 
 /// The distances of the target that a run's log holds, m.
@@ -102,9 +103,13 @@ TEST_P(Lenses, TrackAndServoSeeTheSameDistances) {
     const std::vector<double> seen = distances_m(folder.path() / verb / "run.csv");
     ASSERT_EQ(seen.size(), truth.size()) << verb;
     // The recording's template is the whole pixels inside the poster's outline, seen from 9 m: up
-    // to 1 of 97 px on each side less than the 1.5 m that the task says, and bent by the lens
-    // itself.
-    for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i] / truth[i], 1, 0.04) << verb;
+    // to 1 of 97 px on each side less than the 1.5 m that the task says, and seen 12 degrees from
+    // the side.
+    double worst = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      worst = std::max(worst, std::abs(seen[i] / truth[i] - 1));
+    std::printf("%s: distances to %.3f of the truth\n", verb, worst);
+    EXPECT_LE(worst, 0.03) << verb;
   }
 }
 

@@ -105,5 +105,52 @@ TEST(LiveServo, EndsWithHoverWhenTheCameraIsGoneForGood) {
   EXPECT_TRUE(last_is_zero);
 }
 
+/// A simulated camera in another process, on a local socket; its vehicle obeys nobody and stays.
+std::unique_ptr<Program> simulated_camera(const TempFolder& folder, const std::string& output) {
+  return std::make_unique<Program>(
+      std::vector<std::string>{"simulate", "task.yaml", "--real-time", "--vehicle-port",
+                               std::to_string(free_port()), "--frames", "./frames", "--output",
+                               output},
+      folder.path());
+}
+
+TEST(LiveServo, HoversWhileTheSimulatedCameraIsSilentOrGoneAndServoesAgain) {
+  const TempFolder folder;
+  folder.write(
+      "task.yaml",
+      "source: simulation\nsink: none\n"
+      "capture: {open_timeout_s: 60, stall_timeout_s: 1, longest_retry_s: 0.5}\n"
+      "camera: {intrinsics_px: [300, 300, 159.5, 119.5], size_px: [320, 240],\n"
+      "  body_from_camera: {translation_m: [0, 0, 0], rpy_deg: [90, 0, 90]}}\n"
+      "target: {width_m: 2.0, height_m: 1.5}\n"
+      "goal_camera_from_target: {translation_m: [0, 0, 5], rpy_deg: [0, 0, 0]}\n"
+      "simulation: {start: {position_ned_m: [-7, 0.5, 0.5], heading_deg: -5}, rate_hz: 20,\n"
+      "  duration_s: 300}\n");
+  auto camera = simulated_camera(folder, "flight");
+  CommandReceiver receiver({"127.0.0.1", 0});
+  Program servo({"servo", "task.yaml", "--source", "sim:./frames", "--no-video", "--sink",
+                 "udp://127.0.0.1:" + std::to_string(receiver.local().port), "--output", "run"},
+                folder.path());
+  EXPECT_LT(wait_for(receiver, false, 5), kLongest_s);
+
+  camera->signal(SIGSTOP);
+  const double stalled_s = wait_for(receiver, true, 10);
+  EXPECT_LT(stalled_s, kLongest_s);
+  camera->signal(SIGCONT);
+  const double again_s = wait_for(receiver, false, 5);
+  EXPECT_LT(again_s, kLongest_s);
+
+  camera.reset();  // killed
+  const double gone_s = wait_for(receiver, true, 10);
+  EXPECT_LT(gone_s, kLongest_s);
+  camera = simulated_camera(folder, "flight2");
+  const double restarted_s = wait_for(receiver, false, 5);
+  EXPECT_LT(restarted_s, kLongest_s);
+  std::printf(
+      "sim: ten zeros %.2f s after a stall, servo again %.2f s after it; ten zeros %.2f s after it "
+      "was killed, servo again %.2f s after a new start\n",
+      stalled_s, again_s, gone_s, restarted_s);
+}
+
 }  // namespace
 }  // namespace kestrel::test

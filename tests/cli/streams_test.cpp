@@ -1,7 +1,7 @@
-// Network streams against FFmpeg as their sender, on loopback: it starts late, stops, stalls,
-// changes the size, and comes back. The times are printed, since they are what a user wants to
-// know; what is tested is that nothing hangs, that the source says when it is blind and that it
-// recovers.
+// Network streams against FFmpeg and GStreamer as their senders, on loopback: each starts late,
+// stops, stalls, changes the size, and comes back. The times are printed, since they are what a
+// user wants to know; what is tested is that nothing hangs, that the source says when it is blind
+// and that it recovers.
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -11,61 +11,17 @@
 
 #include "kestrel/io/live_camera.hpp"
 
-#include "cli/rtsp_server.hpp"
+#include "cli/stream_ways.hpp"
 #include "cli/video_sender.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel {
 namespace {
 
+using test::StreamWay;
 using test::VideoSender;
-using test::VideoStream;
 
 constexpr double kLongest_s = 60;  // for what happens within a second on a machine that is free
-
-/// One way for pictures to come.
-struct Way {
-  std::string name;
-  std::string address;
-  std::vector<std::string> output;
-  int rtsp_port = 0;  // where an RtspServer is wanted, and which port FFmpeg feeds it at
-  int feed_port = 0;
-};
-
-std::string write_sdp(const test::TempFolder& folder, int port) {
-  return folder
-      .write("stream.sdp",
-             "v=0\r\no=- 0 0 IN IP4 127.0.0.1\r\ns=test\r\nc=IN IP4 127.0.0.1\r\nt=0 0\r\n"
-             "m=video " +
-                 std::to_string(port) + " RTP/AVP 96\r\na=rtpmap:96 H264/90000\r\n")
-      .string();
-}
-
-std::vector<Way> ways(const test::TempFolder& folder) {
-  std::vector<Way> all;
-  const std::string host = "127.0.0.1:";
-  const int udp = test::free_port();
-  all.push_back({"udp, MPEG-TS", "udp://" + host + std::to_string(udp), test::mpeg_over_udp(udp)});
-  const int rtp = test::free_port();
-  const std::string rtp_url = "rtp://" + host + std::to_string(rtp);
-  all.push_back(
-      {"rtp, MPEG-TS",
-       rtp_url,
-       {"-c:v", "mpeg2video", "-q:v", "2", "-g", "5", "-bf", "0", "-f", "rtp_mpegts", rtp_url}});
-  const int h264 = test::free_port();
-  all.push_back({"rtp, H.264",
-                 "rtp:" + write_sdp(folder, h264),
-                 {"-c:v", "libx264", "-preset", "ultrafast", "-tune", "zerolatency", "-g", "10",
-                  "-bsf:v", "dump_extra", "-f", "rtp", "rtp://" + host + std::to_string(h264)}});
-  const std::string http = "http://" + host + std::to_string(test::free_port()) + "/video";
-  all.push_back(
-      {"http, MJPEG", http, {"-c:v", "mjpeg", "-q:v", "3", "-f", "mpjpeg", "-listen", "1", http}});
-  const int rtsp = test::free_port();
-  const int feed = test::free_port();
-  all.push_back({"rtsp, MPEG-TS", "rtsp://" + host + std::to_string(rtsp) + "/video",
-                 test::mpeg_over_udp(feed), rtsp, feed});
-  return all;
-}
 
 LiveOptions options() {
   LiveOptions o;
@@ -106,11 +62,10 @@ class Watched {
 void wait_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 /// The sender, started anew.
-void start(std::unique_ptr<VideoSender>& sender, const Way& way, const test::TempFolder& folder,
-           int width) {
+void start(std::unique_ptr<VideoSender>& sender, const StreamWay& way,
+           const test::TempFolder& folder, int width) {
   sender.reset();
-  sender = std::make_unique<VideoSender>(
-      VideoStream{test::test_picture(width, width * 3 / 4), way.output}, folder.path());
+  sender = std::make_unique<VideoSender>(way.sender(width), folder.path());
 }
 
 /// Waits until something is true, the frames being taken meanwhile.
@@ -125,9 +80,10 @@ class Streams : public ::testing::TestWithParam<int> {};
 
 TEST_P(Streams, ComeBackWhateverTheSenderDoes) {
   const test::TempFolder folder;
-  const Way way = ways(folder).at(std::size_t(GetParam()));
-  std::unique_ptr<test::RtspServer> server;
-  if (way.rtsp_port > 0) server = std::make_unique<test::RtspServer>(way.rtsp_port, way.feed_port);
+  const std::vector<StreamWay> all = test::stream_ways(folder);
+  ASSERT_EQ(all.size(), std::size_t(test::kStreamWays));
+  const StreamWay& way = all.at(std::size_t(GetParam()));
+  const auto server = way.server();
   std::unique_ptr<VideoSender> sender;
 
   std::thread late([&] {
@@ -153,8 +109,7 @@ TEST_P(Streams, ComeBackWhateverTheSenderDoes) {
     return source.status().trouble != "" || source.status().connections > before;
   }));
   sender->go_on();
-  // A sender that serves one viewer once (FFmpeg over HTTP) ends when it has lost that one.
-  if (way.name.rfind("http", 0) == 0) start(sender, way, folder, 320);
+  if (way.serves_once) start(sender, way, folder, 320);
   const double stall_s = source.wait_for(true);
   EXPECT_LT(stall_s, kLongest_s);
 
@@ -167,14 +122,14 @@ TEST_P(Streams, ComeBackWhateverTheSenderDoes) {
   // No call of next() waited longer than it promises; the slack is for a machine that is not free.
   EXPECT_LT(source.longest_s(), options().blind_s + 5);
   std::printf(
-      "%-13s first picture %.2f s after a late start; blind %.2f s after the end; back %.2f s "
+      "%-24s first picture %.2f s after a late start; blind %.2f s after the end; back %.2f s "
       "after a restart, %.2f s after a stall, %.2f s after another size; longest wait %.2f s; %d "
       "connections\n",
       way.name.c_str(), late_s, blind_s, restart_s, stall_s, size_s, source.longest_s(),
       int(source.status().connections));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(All, Streams, ::testing::Range(0, test::kStreamWays));
 
 }  // namespace
 }  // namespace kestrel

@@ -36,23 +36,27 @@ struct VideoStream {
   std::vector<std::string> output;  // codec, container and address
 };
 
-/// FFmpeg as a camera that sends in real time; killed at the end of its life.
+/// FFmpeg, sending in real time.
+inline Command ffmpeg_command(const VideoStream& stream) {
+  Command c{{"ffmpeg", "-nostdin", "-loglevel", "error", "-re"}};
+  c.words.insert(c.words.end(), stream.input.begin(), stream.input.end());
+  c.words.insert(c.words.end(), {"-an", "-threads", "1"});
+  c.words.insert(c.words.end(), stream.output.begin(), stream.output.end());
+  return c;
+}
+
+/// A program as a camera that sends; killed at the end of its life.
 class VideoSender {
  public:
+  VideoSender(const Command& command, const std::filesystem::path& folder)
+      : program_(command, folder) {}
   VideoSender(const VideoStream& stream, const std::filesystem::path& folder)
-      : program_(command(stream), folder) {}
+      : VideoSender(ffmpeg_command(stream), folder) {}
   /// The process stands still: its connections stay open and nothing comes.
   void stall() const { program_.signal(SIGSTOP); }
   void go_on() const { program_.signal(SIGCONT); }
 
  private:
-  static Command command(const VideoStream& stream) {
-    Command c{{"ffmpeg", "-nostdin", "-loglevel", "error", "-re"}};
-    c.words.insert(c.words.end(), stream.input.begin(), stream.input.end());
-    c.words.insert(c.words.end(), {"-an", "-threads", "1"});
-    c.words.insert(c.words.end(), stream.output.begin(), stream.output.end());
-    return c;
-  }
   Program program_;
 };
 

@@ -102,5 +102,36 @@ TEST(StraightView, OfATemplateThatIsPartlyOutsideTakesWhatIsInside) {
   EXPECT_FALSE(straight_view(nonsense, kWidth_px, kHeight_px, kLenses[0]).has_value());
 }
 
+// What a tracker that looks at the whole template alike would find is the bent view, and back again
+// the straight one is what straight_view makes of it: to second order in what no homography fits.
+TEST(BentView, IsWhatATrackerFinds) {
+  test::Random random("bent view");
+  for (const Camera& lens : kLenses) {
+    for (int k = 0; k < 20; ++k) {
+      const Homography straight = any_view(random);
+      const auto bent = bent_view(straight, kWidth_px, kHeight_px, lens);
+      ASSERT_TRUE(bent.has_value());
+      // Another grid of points on the same template: the fit differs by a part of the few pixels
+      // that the lens bends it.
+      EXPECT_LT(worst_corner_px(*bent, tracked(straight, lens)), 0.5);
+      const auto back = straight_view(*bent, kWidth_px, kHeight_px, lens);
+      ASSERT_TRUE(back.has_value());
+      EXPECT_LT(worst_corner_px(back->image_from_template, straight), 0.3);
+    }
+  }
+}
+
+TEST(BentView, IsTheSameWithoutALens) {
+  test::Random random("bent view without a lens");
+  const Homography view = any_view(random);
+  EXPECT_EQ(bent_view(view, kWidth_px, kHeight_px, Camera(kNone))->H, view.H);
+}
+
+TEST(BentView, IsNoneOfWhatCannotBeSeen) {
+  Homography beside;
+  beside.H(0, 2) = 5000;
+  EXPECT_FALSE(bent_view(beside, kWidth_px, kHeight_px, kLenses[0]).has_value());
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -44,5 +44,14 @@ TEST(OpenLive, AStreamHasNoSettings) {
               HasSubstr("a network stream comes as it is sent"));
 }
 
+TEST(OpenLive, OnlyAFireWireCameraHasATrigger) {
+  LiveOptions options;
+  options.capture.trigger.emplace();
+  for (const char* address : {"camera:0", "udp://127.0.0.1:45999"})
+    EXPECT_THROW(open_live(address, options), std::invalid_argument) << address;
+  EXPECT_THAT(message_of([&] { open_live("camera:0", options); }),
+              HasSubstr("trigger: only a FireWire camera (dc1394) is triggered"));
+}
+
 }  // namespace
 }  // namespace kestrel

@@ -1,6 +1,7 @@
 #include "kestrel/io/live_options.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 using test::message_of;
 using ::testing::HasSubstr;
 
-std::string refusal(void (*change)(LiveOptions&)) {
+std::string refusal(const std::function<void(LiveOptions&)>& change) {
   LiveOptions options;
   change(options);
   return message_of([&] { options.check(); });
@@ -38,6 +39,12 @@ TEST(LiveOptions, CheckNamesTheOptionOutOfRange) {
   EXPECT_THAT(refusal([](LiveOptions& o) { o.capture.rate_hz = 0; }), HasSubstr("rate_hz"));
   EXPECT_THAT(refusal([](LiveOptions& o) { o.capture.exposure_s = 0; }), HasSubstr("exposure_s"));
   EXPECT_THAT(refusal([](LiveOptions& o) { o.capture.gain = -1; }), HasSubstr("gain"));
+  const auto trigger = [](const TriggerSettings& t) {
+    return refusal([&](LiveOptions& o) { o.capture.trigger = t; });
+  };
+  EXPECT_THAT(trigger({"4", 0, ""}), HasSubstr("trigger.source: must be 0, 1, 2, 3 or software"));
+  EXPECT_THAT(trigger({"0", 6, ""}), HasSubstr("trigger.mode: must be 0 to 5, 14 or 15"));
+  EXPECT_THAT(trigger({"0", 15, "up"}), HasSubstr("trigger.polarity: must be high or low"));
 }
 
 TEST(RetryDelay, DoublesUpToTheLongest) {

@@ -142,6 +142,7 @@ TEST_F(TaskOptions, ReadEveryLawAndItsNumbers) {
 TEST_F(TaskOptions, PutEveryCaptureKeyInItsPlace) {
   const Section root = load(
       "capture: {format: yuyv, size_px: [752, 480], rate_hz: 60, exposure_s: 0.004, gain: 12,\n"
+      "  trigger: {source: software, mode: 14, polarity: low},\n"
       "  open_timeout_s: 1, stall_timeout_s: 2.5, blind_s: 0.3, give_up_s: 40, retry_s: 0.5,\n"
       "  longest_retry_s: 6}\n");
   const LiveOptions o = read_live_options(root);
@@ -150,6 +151,10 @@ TEST_F(TaskOptions, PutEveryCaptureKeyInItsPlace) {
   EXPECT_EQ(o.capture.rate_hz, 60);
   EXPECT_EQ(o.capture.exposure_s, 0.004);
   EXPECT_EQ(o.capture.gain, 12);
+  ASSERT_TRUE(o.capture.trigger.has_value());
+  EXPECT_EQ(o.capture.trigger->source, "software");
+  EXPECT_EQ(o.capture.trigger->mode, 14);
+  EXPECT_EQ(o.capture.trigger->polarity, "low");
   EXPECT_EQ(o.open_timeout_s, 1);
   EXPECT_EQ(o.stall_timeout_s, 2.5);
   EXPECT_EQ(o.blind_s, 0.3);
@@ -169,6 +174,8 @@ TEST_F(TaskOptions, RefuseACaptureThatNoCameraHas) {
   EXPECT_THAT(error("size_px: [640, 0]"), HasSubstr("capture.size_px: is no image size"));
   EXPECT_THAT(error("rate_hz: -1"), HasSubstr("rate_hz: must be positive"));
   EXPECT_THAT(error("blind_s: 0"), HasSubstr("blind_s: must be positive"));
+  EXPECT_THAT(error("trigger: {source: 7}"), HasSubstr("trigger.source: must be 0, 1, 2, 3"));
+  EXPECT_THAT(error("trigger: {delay: 7}"), HasSubstr("trigger.delay"));
   EXPECT_THAT(error("exposure: 1"), AllOf(HasSubstr("exposure"), HasSubstr("exposure_s")));
 }
 

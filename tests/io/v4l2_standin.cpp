@@ -70,7 +70,7 @@ int V4l2StandIn::give(v4l2_buffer& it) {
     gone_ = true;
     return fails(ENODEV);
   }
-  if (fault == V4l2Fault::IoError && count_ == 3) return fails(EIO);
+  if (fault == V4l2Fault::IoError && count_ >= 3) return fails(EIO);
   while (std::find(lost.begin(), lost.end(), number_) != lost.end()) ++number_;
   it.index = queued_.front();
   queued_.erase(queued_.begin());
@@ -83,9 +83,11 @@ int V4l2StandIn::give(v4l2_buffer& it) {
   it.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   double stamp_s = monotonic_clock_s() - stamp_age_s;
   if (fault == V4l2Fault::WrongClock) stamp_s = 1.7e9;
-  if (fault == V4l2Fault::Corrupt && count_ == 2) it.flags |= V4L2_BUF_FLAG_ERROR;
-  if (fault == V4l2Fault::CutShort && count_ == 2) it.bytesused /= 2;
-  if (fault == V4l2Fault::BadIndex && count_ == 2) it.index = 9;
+  const bool is_corrupt = fault == V4l2Fault::Corrupt && count_ == 2;
+  const bool is_short = fault == V4l2Fault::CutShort && count_ == 2;
+  if (is_corrupt || fault == V4l2Fault::AllCorrupt) it.flags |= V4L2_BUF_FLAG_ERROR;
+  if (is_short || fault == V4l2Fault::AllCutShort) it.bytesused /= 2;
+  if (fault == V4l2Fault::BadIndex && count_ >= 2) it.index = 9;
   it.timestamp.tv_sec = time_t(stamp_s);
   it.timestamp.tv_usec = suseconds_t((stamp_s - std::floor(stamp_s)) * 1e6);
   ++count_;

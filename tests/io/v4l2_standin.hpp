@@ -27,7 +27,9 @@ enum class V4l2Fault {
   NoBandwidth,  // STREAMON fails: ENOSPC
   Corrupt,      // picture 2 is marked as faulty
   CutShort,     // picture 2 is half as long
-  IoError,      // taking picture 3 fails: EIO
+  AllCorrupt,   // every picture is
+  AllCutShort,  // every picture is
+  IoError,      // taking picture 3 and those after it fails: EIO
   Unplugged,    // from picture 3 on: ENODEV, and it does not open any more
   Silent,       // no picture after the third
   WrongClock,   // stamps of CLOCK_REALTIME

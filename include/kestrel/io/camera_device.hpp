@@ -38,6 +38,10 @@ class CameraDevice {
   virtual std::optional<Picture> next() = 0;
 
   virtual CaptureClock clock() const = 0;
+
+  /// What to say, and to do, when it has given no picture for so long: "no picture for 2 s; check
+  /// the camera and its cable".
+  virtual std::string silence(double seconds) const;
 };
 
 /// True when a wait is to end: the source is being closed.

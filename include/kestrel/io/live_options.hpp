@@ -7,14 +7,23 @@
 
 namespace kestrel {
 
+/// What starts each picture of a FireWire camera in place of its own clock (IIDC's TRIGGER_MODE
+/// register).
+struct TriggerSettings {
+  std::string source = "0";  // an input of the camera, "0" to "3", or "software": this program
+  int mode = 0;          // 0: an edge starts the exposure; 1: it lasts as long as the level; ...
+  std::string polarity;  // "high" or "low": the active level; empty: as the camera has it
+};
+
 /// What a camera is asked to deliver; what is absent is left to the camera, or to the choice that
 /// choose_mode makes.
 struct CaptureSettings {
-  std::string format;                // a name of CameraMode::format; empty: any that is read
-  std::optional<cv::Size> size;      // px
-  std::optional<double> rate_hz;     // pictures per second, at least
-  std::optional<double> exposure_s;  // shutter time, with the automatic exposure off
-  std::optional<double> gain;        // in the camera's own unit, with the automatic gain off
+  std::string format;                      // a name of CameraMode::format; empty: any that is read
+  std::optional<cv::Size> size;            // px
+  std::optional<double> rate_hz;           // pictures per second, at least
+  std::optional<double> exposure_s;        // shutter time, with the automatic exposure off
+  std::optional<double> gain;              // in the camera's own unit, with the automatic gain off
+  std::optional<TriggerSettings> trigger;  // of dc1394 only; absent: pictures at the rate
 
   /// True when nothing is asked for.
   bool is_empty() const;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/homography.hpp"
 #include "kestrel/vision/agreement.hpp"
 #include "kestrel/vision/image_pyramid.hpp"
@@ -23,6 +24,7 @@ struct AlignOptions {
   int search_radius_px = 4;    // of search(), px of the coarsest level
   AgreementOptions agreement;
   Simd simd = Simd::Auto;
+  std::optional<Camera> lens;  // the images are seen through; absent: none
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
@@ -30,7 +32,10 @@ struct AlignOptions {
 
 /// Where the template is in a frame, by its pixels.
 struct Alignment {
-  Homography image_from_template;
+  Homography image_from_template;  // through a lens the nearest one (bent_view)
+  /// The same place as the camera without its lens would have seen it, aligned through the lens; of
+  /// images without one, the same.
+  Homography straight_from_template;
   /// Of the template's corners in the image (u0, v0, ..., u3, v3), px^2, from the residuals.
   Matrix8d corner_covariance = Matrix8d::Identity();
   PlaceAgreement agreement;  // of the finest level used and of the next one
@@ -38,7 +43,9 @@ struct Alignment {
   int iterations = 0;  // of all levels
 };
 
-/// Aligns a template with frames. Keeps its memory: allocates nothing after the first frame.
+/// Aligns a template with frames. A lens is removed where it matters: each block is laid where the
+/// lens bends it to, so that a homography is what the plane's view differs by. Keeps its memory:
+/// allocates nothing after the first frame.
 class Aligner {
  public:
   /// Throws std::invalid_argument for options that do not check.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kestrel/geometry/homography.hpp"
+#include "kestrel/geometry/straight_view.hpp"
 #include "kestrel/vision/agreement.hpp"
 #include "kestrel/vision/corner_covariance.hpp"
 #include "kestrel/vision/corner_motion.hpp"
@@ -65,7 +66,10 @@ struct Track {
   TrackStatus status = TrackStatus::Lost;
   TrackStage stage = TrackStage::None;
   std::optional<Homography> image_from_template;  // only when found
-  std::optional<Homography> predicted;            // only when coasting
+  /// The same place in the image of the camera without its lens, when the method looked through it
+  /// (TrackOptions::lens); only when found.
+  std::optional<Homography> straight_from_template;
+  std::optional<Homography> predicted;  // only when coasting
   Miss miss = Miss::None;
   double age_s = 0;  // since the target was found; 0 when found, or never found
   /// 0 to 1. Found: the share of the template's visible blocks that the image shows, times how well
@@ -83,6 +87,12 @@ struct Track {
 
   bool found() const { return image_from_template.has_value(); }
 };
+
+/// What was found of a template of this size (px) as the camera without its lens would have it: as
+/// it was aligned through the lens, else by straight_view's fit. Empty when it was not found, or
+/// the fit is empty.
+std::optional<StraightView> straight_view(const Track& track, double width_px, double height_px,
+                                          const Camera& camera);
 
 /// One word for a log: "found", "coasting", "lost".
 const char* name(TrackStatus status);

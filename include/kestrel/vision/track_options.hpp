@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "kestrel/geometry/camera.hpp"
 #include "kestrel/geometry/homography.hpp"
 #include "kestrel/vision/align.hpp"
 #include "kestrel/vision/corner_motion.hpp"
@@ -76,6 +78,10 @@ struct TrackOptions {
   int weak_frames = 5;      // weak answers in a row after which keypoints are asked
 
   OutlineOptions outline;
+
+  /// The camera, where the frames are seen through a lens; not of Paper. The template is learned
+  /// from a picture without (straight_template).
+  std::optional<Camera> lens;
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;

@@ -1,6 +1,7 @@
 #include "block_look.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -35,11 +36,28 @@ std::vector<kernel::Block> known(const BlockLevel& level) {
   return blocks;
 }
 
+/// Four points of a block whose mean and spread are those of its pixels, 8 x 8 of them: what a lens
+/// bends over the block is then right in the mean, and the block is not shifted by it.
+std::array<Pixel, 4> inner_points(const kernel::Block& block, const Eigen::Matrix3d& to) {
+  constexpr double kMiddle = (kernel::kBlockSide - 1) / 2.0;
+  const double spread = std::sqrt((kernel::kBlockSide * kernel::kBlockSide - 1) / 12.0);
+  const std::array<std::array<double, 2>, 4> corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  std::array<Pixel, 4> points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p =
+        to * Eigen::Vector3d(double(block.x) + kMiddle + spread * corners[i][0],
+                             double(block.y) + kMiddle + spread * corners[i][1], 1);
+    points[i] = {p.x() / p.z(), p.y() / p.z()};
+  }
+  return points;
+}
+
 }  // namespace
 
 BlockLook::BlockLook(TemplateBlocks blocks, const AlignOptions& options)
     : all_(std::move(blocks)),
       options_(options),
+      lens_(options.lens ? std::optional<BlockLens>(*options.lens) : std::nullopt),
       sample_(use_avx2(options.simd) ? kernel::sample_blocks_avx2 : kernel::sample_blocks_baseline),
       score_(use_avx2(options.simd) ? kernel::score_blocks_avx2 : kernel::score_blocks_baseline) {
   std::size_t most = 0;
@@ -53,12 +71,29 @@ BlockLook::BlockLook(TemplateBlocks blocks, const AlignOptions& options)
 
 void BlockLook::look(kernel::SampleBlocks kernel_of, const ImagePyramid& image, const LevelPair& at,
                      const Homography& H) {
+  if (lens_) return look_through_lens(kernel_of, image, at, H);
   const Eigen::Matrix3d G =
       level0_from_level(at.in_image).inverse() * H.H * level0_from_level(at.in_template);
   const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> h = (G / G(2, 2)).cast<float>();
   const std::vector<kernel::Block>& blocks = blocks_[std::size_t(at.in_template)];
   kernel_of(sampled(image.level(at.in_image)), h.data(), blocks.data(), int(blocks.size()),
             sums_.data());
+}
+
+/// Each block by a homography of its own: the lens, straight over so few pixels.
+void BlockLook::look_through_lens(kernel::SampleBlocks kernel_of, const ImagePyramid& image,
+                                  const LevelPair& at, const Homography& H) {
+  const std::vector<kernel::Block>& blocks = blocks_[std::size_t(at.in_template)];
+  const Eigen::Matrix3d level_from_image = level0_from_level(at.in_image).inverse();
+  const Eigen::Matrix3d straight_from_level = H.H * level0_from_level(at.in_template);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto bend = lens_->image_from_straight(inner_points(blocks[i], straight_from_level));
+    sums_[i] = {};
+    if (!bend) continue;
+    const Eigen::Matrix3d G = level_from_image * *bend * straight_from_level;
+    const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> h = (G / G(2, 2)).cast<float>();
+    kernel_of(sampled(image.level(at.in_image)), h.data(), &blocks[i], 1, &sums_[i]);
+  }
 }
 
 Normal BlockLook::measured(const ImagePyramid& image, const LevelPair& at, const Homography& H) {

@@ -8,12 +8,14 @@
 #include "kestrel/vision/template_blocks.hpp"
 
 #include "block_kernels.hpp"
+#include "block_lens.hpp"
 #include "level_pairs.hpp"
 #include "normal_equations.hpp"
 
 namespace kestrel {
 
-/// Looks at frames with the blocks of a template, a level at a time. Keeps its memory.
+/// Looks at frames with the blocks of a template, a level at a time. Places are those in the image
+/// of the camera without its lens. Keeps its memory.
 class BlockLook {
  public:
   BlockLook(TemplateBlocks blocks, const AlignOptions& options);
@@ -43,9 +45,12 @@ class BlockLook {
   }
   void look(kernel::SampleBlocks kernel_of, const ImagePyramid& image, const LevelPair& at,
             const Homography& H);
+  void look_through_lens(kernel::SampleBlocks kernel_of, const ImagePyramid& image,
+                         const LevelPair& at, const Homography& H);
 
   TemplateBlocks all_;
   AlignOptions options_;
+  std::optional<BlockLens> lens_;
   kernel::SampleBlocks sample_;
   kernel::SampleBlocks score_;
   std::vector<std::vector<kernel::Block>> blocks_;  // by level

@@ -16,6 +16,13 @@ constexpr double kSharpHalf = 0.95;
 /// And above this, four fifths explained, what is doubtful for its other half is covered there.
 constexpr double kCoveredHalf = 0.9;
 
+/// The template's own picture has no lens before it.
+AlignOptions options_without_lens(const TrackOptions& options) {
+  AlignOptions align = align_options(options);
+  align.lens.reset();
+  return align;
+}
+
 /// Of a blurred view twice as many blocks must be alike as are not.
 constexpr double kEvidentShare = 2.0 / 3;
 
@@ -24,13 +31,14 @@ constexpr double kEvidentShare = 2.0 / 3;
 AlignOptions align_options(const TrackOptions& options) {
   AlignOptions align = options.align;
   align.simd = options.simd;
+  align.lens = options.lens;
   return align;
 }
 
 Verdict::Verdict(const Template& model, const TrackOptions& options)
     : model_(model),
       options_(options),
-      self_(self_likeness(model.picture(), model.blocks(), align_options(options))),
+      self_(self_likeness(model.picture(), model.blocks(), options_without_lens(options))),
       beyond_(beyond_self_likeness(options.align.agreement, self_.share)) {}
 
 /// True where the motion leads to the place and to none at which the template is like this one.
