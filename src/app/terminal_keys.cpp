@@ -26,7 +26,9 @@ struct sigaction interrupt_before {};
 struct sigaction terminate_before {};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch these");
 
-constexpr std::array<int, 7> kFatal{SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+/// What ends or suspends a program that does nothing about it.
+constexpr std::array<int, 8> kPassedOn{SIGHUP, SIGQUIT, SIGABRT, SIGSEGV,
+                                       SIGBUS, SIGFPE,  SIGILL,  SIGTSTP};
 
 /// A terminal that is not ours to control (ENOTTY) has no job control: nobody suspends us for it.
 bool is_in_foreground() {
@@ -46,7 +48,15 @@ void take() {
   if (tcsetattr(STDIN_FILENO, TCSANOW, &single) == 0) is_changed = true;
 }
 
-void install(int signal, void (*handler)(int), struct sigaction* old) {
+using Handler = void (*)(int);
+
+Handler handler_of(int signal) {
+  struct sigaction now {};
+  sigaction(signal, nullptr, &now);
+  return now.sa_handler;
+}
+
+void install(int signal, Handler handler, struct sigaction* old) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = SA_NODEFER;  // it is raised again from within
@@ -79,18 +89,17 @@ void end(int signal) {
 void install_all() {
   install(SIGINT, end, &interrupt_before);
   install(SIGTERM, end, &terminate_before);
-  for (const int signal : kFatal) install(signal, pass_on, nullptr);
-  install(SIGTSTP, pass_on, nullptr);
+  for (const int signal : kPassedOn) {
+    if (handler_of(signal) != SIG_IGN) install(signal, pass_on, nullptr);
+  }
 }
 
 void remove_all() {
-  for (const int signal : kFatal) std::signal(signal, SIG_DFL);
-  std::signal(SIGTSTP, SIG_DFL);
-  struct sigaction now {};
-  sigaction(SIGINT, nullptr, &now);
-  if (now.sa_handler == end) sigaction(SIGINT, &interrupt_before, nullptr);
-  sigaction(SIGTERM, nullptr, &now);
-  if (now.sa_handler == end) sigaction(SIGTERM, &terminate_before, nullptr);
+  for (const int signal : kPassedOn) {
+    if (handler_of(signal) == pass_on) std::signal(signal, SIG_DFL);
+  }
+  if (handler_of(SIGINT) == end) sigaction(SIGINT, &interrupt_before, nullptr);
+  if (handler_of(SIGTERM) == end) sigaction(SIGTERM, &terminate_before, nullptr);
 }
 
 /// Blocks all signals in the thread that lives on while this does: they are for the others, and a

@@ -42,16 +42,32 @@ class Script {
 
 class HandAtASwitch : public testing::Test {
  protected:
+  explicit HandAtASwitch(SwitchProcess::Hand hand = SwitchProcess::Hand::Plain)
+      : switch_(vehicle_.url(), hand) {}
+
+  /// More of the command line.
+  virtual std::vector<std::string> more_arguments() { return {}; }
+
   void SetUp() override {
     const mavlink::SigningKey key = mavlink::random_key();
     mavlink::write_key(folder_ / "token", key);
     ASSERT_TRUE(comes([&] { return !switch_.status().is_null(); }));
-    program_ = std::make_unique<Program>(
-        std::vector<std::string>{"simulate", KESTREL_SOURCE_DIR "/tasks/hover.yaml", "--ground",
-                                 std::to_string(port_), "--ground-token", "token", "--sink",
-                                 switch_.url("eyes"), "--ground-link", switch_.url("hand"),
-                                 "--no-video", "--output", "run"},
-        folder_.path());
+    std::vector<std::string> words{"simulate",
+                                   KESTREL_SOURCE_DIR "/tasks/hover.yaml",
+                                   "--ground",
+                                   std::to_string(port_),
+                                   "--ground-token",
+                                   "token",
+                                   "--sink",
+                                   switch_.url("eyes"),
+                                   "--ground-link",
+                                   switch_.url("hand"),
+                                   "--no-video",
+                                   "--output",
+                                   "run"};
+    const auto more = more_arguments();
+    words.insert(words.end(), more.begin(), more.end());
+    program_ = std::make_unique<Program>(words, folder_.path());
     page_ = std::make_unique<PageClient>(port_, hexadecimal(key));
     ASSERT_TRUE(comes([&] { return !page_->status().is_null(); })) << program_->wait(0).err;
     EXPECT_TRUE(says("The switch:"));
@@ -93,7 +109,7 @@ class HandAtASwitch : public testing::Test {
   const int port_ = 20000 + int(getpid() % 3000) * 4;
   const TempFolder folder_;
   WireListener vehicle_;
-  SwitchProcess switch_{vehicle_.url()};
+  SwitchProcess switch_;
   std::unique_ptr<Program> program_;
   std::unique_ptr<PageClient> page_;
 };
@@ -162,6 +178,23 @@ TEST_F(HandAtASwitch, TheRunsLogSaysSticks) {
   const std::string log = read(folder_ / "run" / "run.csv");
   EXPECT_NE(log.find(",sticks,"), std::string::npos);
   EXPECT_SAYS(outcome.out, "flown by hand");
+}
+
+/// Over a link whose frames are signed.
+class SignedHandAtASwitch : public HandAtASwitch {
+ protected:
+  SignedHandAtASwitch() : HandAtASwitch(SwitchProcess::Hand::Signed) {}
+  std::vector<std::string> more_arguments() override {
+    return {"--ground-link-key", switch_.key_file()};
+  }
+};
+
+TEST_F(SignedHandAtASwitch, FliesAndStops) {
+  page_->hold(0.3);
+  EXPECT_TRUE(flies_by_hand());
+  EXPECT_TRUE(page_->stop());
+  EXPECT_TRUE(control_is("stopped"));
+  EXPECT_TRUE(stays_still());
 }
 
 /// The same in a browser.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kestrel/link/key_file.hpp"
 #include "kestrel/link/link_place.hpp"
 #include "kestrel/link/status_server.hpp"
 
@@ -20,17 +21,24 @@ namespace kestrel::test {
 /// and script (of priority 70, between the two).
 class SwitchProcess {
  public:
-  explicit SwitchProcess(const std::string& flight_url) {
+  enum class Hand { Plain, Signed };  // its link with a key, or without
+
+  explicit SwitchProcess(const std::string& flight_url, Hand hand = Hand::Plain) {
+    const bool has_key = hand == Hand::Signed;
+    if (has_key) mavlink::write_key(key_file(), mavlink::random_key());
     std::ofstream(folder_ / "switch.yaml")
         << "links:\n"
         << "  - {name: autopilot, role: flight, url: '" << flight_url << "'}\n"
         << "  - {name: eyes, role: vision, url: 'udp-listen://127.0.0.1:0'}\n"
-        << "  - {name: hand, role: ground, url: 'udp-listen://127.0.0.1:0'}\n"
+        << "  - {name: hand, role: ground, url: 'udp-listen://127.0.0.1:0'"
+        << (has_key ? ", key: hand.key" : "") << "}\n"
         << "  - {name: script, role: script, priority: 70, url: 'udp-listen://127.0.0.1:0'}\n"
-        << "status: status\n";
+        << (has_key ? "signing_times: times\n" : "") << "status: status\n";
     program_ = std::make_unique<Program>(std::vector<std::string>{"switch", "switch.yaml"},
                                          folder_.path());
   }
+
+  std::filesystem::path key_file() const { return folder_ / "hand.key"; }
 
   /// Null when the switch does not answer (yet).
   nlohmann::json status() const {

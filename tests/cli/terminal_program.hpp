@@ -49,7 +49,7 @@ class TerminalProgram {
   TerminalProgram& operator=(const TerminalProgram&) = delete;
 
   void type(const std::string& keys) const {
-    if (write(master_, keys.data(), keys.size()) != ssize_t(keys.size())) {
+    if (::write(master_, keys.data(), keys.size()) != ssize_t(keys.size())) {
       throw std::runtime_error("the terminal takes no keys");
     }
   }
@@ -107,7 +107,7 @@ class TerminalProgram {
       pollfd wait{master_, POLLIN, 0};
       if (poll(&wait, 1, 20) <= 0) continue;
       char text[4096];
-      const ssize_t count = read(master_, text, sizeof text);
+      const ssize_t count = ::read(master_, text, sizeof text);
       const std::lock_guard<std::mutex> lock(mutex_);
       if (count > 0) printed_.append(text, std::size_t(count));
     }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/page_client.hpp"
+#include "cli/program.hpp"
 #include "cli/rendered_sequence.hpp"
 #include "cli/terminal_program.hpp"
 #include "cli/wire_listener.hpp"
@@ -174,8 +175,11 @@ TEST_F(Terminal, IsLeftAloneFromTheBackground) {
 
 TEST_F(Terminal, SpaceAbortsBesideAPageToo) {
   const int port = 20000 + int(getpid() % 3000) * 4;
+  // Nobody is at the other end of the hand's link: an abort is one all the same.
+  folder_.write("task.yaml", read(folder_ / "task.yaml") + "ground_link: udp://127.0.0.1:9\n");
   start(servo({"--ground", std::to_string(port)}));
   ASSERT_TRUE(prints("#token="));
+  ASSERT_TRUE(prints("a hand flies by the ground's own link, udp://127.0.0.1:9"));
   ASSERT_TRUE(prints("until Reset in the page"));
   const std::string printed = terminal_->printed();
   const std::size_t at = printed.find("#token=") + 7;
@@ -185,7 +189,11 @@ TEST_F(Terminal, SpaceAbortsBesideAPageToo) {
   ASSERT_TRUE(flies());
   terminal_->type(" ");
   EXPECT_TRUE(stays_still());
-  EXPECT_EQ(page.status()["mode"], "aborted");
+  const auto status = page.status();
+  EXPECT_EQ(status["mode"], "aborted");
+  EXPECT_EQ(status["way"]["words"].get<std::string>().find("The switch is not heard"),
+            std::string("A hand takes over on the ground's own link. ").size());
+  EXPECT_NE(page.give("grip")["words"].get<std::string>().find("not heard"), std::string::npos);
   terminal_->type("r");
   terminal_->type("s");
   EXPECT_TRUE(stays_still());
