@@ -36,6 +36,9 @@ struct GroundArguments {
   std::filesystem::path key;
   bool self_signed = false;
   bool plain = false;  // HTTP beyond this machine
+  std::string link;    // of the operator's own to a switch, udp://HOST:PORT; empty: none
+  std::filesystem::path link_key;  // of that link; empty: none
+  bool keys = false;               // those of the terminal, where there is one, stop the flight
 };
 
 struct TrackArguments {

@@ -47,7 +47,7 @@ class Fold {
     std::optional<Eigen::Vector3d> velocity_m_s;
     if (chain_.velocity) velocity_m_s = chain_.velocity(frame_.stamp_s);
     Step now = step(chain_.tracker, frame_, state_, task_, velocity_m_s);
-    if (chain_.ground) steer(now);
+    if (chain_.steered) steer(now);
     chain_.sink.send(now.decision.command, command_stamp_s(now.decision));
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
     take_time(now);
@@ -87,8 +87,9 @@ class Fold {
     end_.reason = why;
   }
 
-  /// Hover is the last word, whatever happened.
+  /// Hover is the last word, whatever happened, also of a hand that holds the sticks.
   ChainEnd end() {
+    if (chain_.ground) chain_.ground->desk().handle(GroundCommand{}, monotonic_s());
     chain_.sink.send(VelocityCommand::hover(), frame_.stamp_s);
     end_.skipped = chain_.source.skipped();
     return end_;
@@ -99,7 +100,8 @@ class Fold {
   /// rests on no picture; a command that fades is as old as the last picture, and no sink may take
   /// it for younger.
   double command_stamp_s(const Decision& decision) const {
-    const bool fades = decision.state != CommandState::Hover;
+    const bool fades =
+        decision.state != CommandState::Hover && decision.state != CommandState::Sticks;
     const bool is_old = !has_image(frame_) && fades && !decision.command.vector().isZero(0);
     return is_old ? seen_stamp_s_ : frame_.stamp_s;
   }
@@ -122,7 +124,7 @@ class Fold {
 
   /// What the operator makes of the decision.
   void steer(Step& now) const {
-    now.decision = chain_.ground->steered(std::move(now.decision), state_.decision);
+    now.decision = chain_.steered(std::move(now.decision), state_.decision);
     now.next.decision = now.decision.next;
   }
 
@@ -146,6 +148,7 @@ class Fold {
 
   void count(const Step& now) {
     ++end_.frames;
+    end_.by_hand += now.decision.state == CommandState::Sticks ? 1 : 0;
     if (!has_image(frame_)) {
       ++end_.blind;
       return;
@@ -205,6 +208,7 @@ void add_chain(Summary& summary, const ChainEnd& end, const CommandSink& sink) {
   summary.add("frames skipped", std::int64_t(end.skipped.size()));
   summary.add("found", double(end.found) * share, "%");
   summary.add("servoed", double(end.servoed) * share, "%");
+  if (end.by_hand > 0) summary.add("flown by hand", double(end.by_hand) * share, "%");
   if (end.blind > 0) summary.add("without a picture", end.blind);
   summary.add("commands not sent", std::int64_t(sink.failures()));
   summary.add("ended by", end.reason);

@@ -28,8 +28,10 @@ struct Chain {
   std::function<std::optional<Eigen::Vector3d>(double stamp_s)> velocity{};
   /// What is put beside the overlay in video and window, if anything; as high as the overlay.
   std::function<cv::Mat(const Frame&, cv::Size overlay_px)> beside{};
-  /// Is shown each frame, and may stop the chain and change its course; null: nobody.
+  /// Is shown each frame, and may change the chain's course; null: nobody.
   GroundStation* ground = nullptr;
+  /// What of a frame's decision may be flown; before: the state at that frame. Null: all of it.
+  std::function<Decision(Decision, const DecisionState& before)> steered{};
   /// How old the frame with this stamp is, s: asked when its command has just been sent. Null:
   /// nobody knows, as of a recording.
   std::function<double(double stamp_s)> age_s{};
@@ -42,6 +44,7 @@ struct ChainEnd {
   std::int64_t frames = 0;
   std::int64_t found = 0;
   std::int64_t servoed = 0;  // frames in which the law had an answer
+  std::int64_t by_hand = 0;  // frames whose command was an operator's
   std::vector<std::string> skipped;
   std::int64_t blind = 0;           // frames without an image: the source was silent
   std::vector<double> latencies_s;  // from the capture of each frame to its command, if known

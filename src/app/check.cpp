@@ -123,6 +123,7 @@ void check_task(const Section& root, const fs::path& drawings) {
   read_autopilot(root);
   root.done();
   check_sink(e.sink);
+  if (!e.ground_link.empty()) check_sink(e.ground_link);
 }
 
 void check_sequence(const fs::path& file) {

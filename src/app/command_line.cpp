@@ -23,8 +23,11 @@ void add_run_options(CLI::App& verb, RunArguments& run) {
 }
 
 constexpr const char* kFlightPage =
-    "Serve the ground station's page at this port, its commands at the next one (0: any free "
-    "ones); the vehicle hovers until Start is pressed there (default: no page)";
+    "Serve the ground station's page at this port, its commands and its emergency stop at the next "
+    "two (0: any free ones); the vehicle hovers until Start is pressed there (default: no page)";
+constexpr const char* kKeys =
+    "In a terminal, Space aborts: zero velocity at once, until Reset in the page; without a page "
+    "until r resets to hover, and then s starts.";
 constexpr const char* kTrackPage =
     "Serve a page to look on at this port (0: any free one); frames go by at their own rate "
     "(default: no page)";
@@ -75,6 +78,8 @@ void add_servo(CLI::App& app, const std::shared_ptr<ServoArguments>& a) {
       "--real-time", [a] { a->pace = Pace::RealTime; },
       "Play a recording at its own rate (default: as fast as possible)");
   add_ground_options(*verb, a->ground, kFlightPage);
+  add_ground_link(*verb, a->ground);
+  verb->footer(kKeys);
   add_run_options(*verb, a->run);
 }
 
@@ -82,6 +87,8 @@ void add_simulate(CLI::App& app, const std::shared_ptr<SimulateArguments>& a) {
   auto* verb = app.add_subcommand("simulate", "Fly the built-in helicopter through a task");
   add_simulate_options(*verb, a);
   add_ground_options(*verb, a->ground, kFlightPage);
+  add_ground_link(*verb, a->ground);
+  verb->footer(kKeys);
   verb->get_option("--ground")->excludes(verb->get_option("--seeds"));
   verb->get_option("--ground")->excludes(verb->get_option("--real-time"));
   add_run_options(*verb, a->run);

@@ -1,13 +1,23 @@
 #include "ground.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "kestrel/link/key_file.hpp"
+
 #include "progress.hpp"
 
 namespace kestrel::app {
+namespace {
+
+double unix_s() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
 
 GroundOptions ground_options(const GroundArguments& a) {
   GroundOptions options;
@@ -35,16 +45,68 @@ void announce(const std::string& address, const GroundOptions& options, const Gr
   }
 }
 
+std::unique_ptr<OperatorLink> operator_link(const GroundArguments& a) {
+  if (a.link.empty()) return nullptr;
+  OperatorLinkOptions options;
+  if (!a.link_key.empty()) options.key = mavlink::load_key(a.link_key);
+  options.unix_s = unix_s;
+  return std::make_unique<OperatorLink>(parse_address(a.link), options);
+}
+
 Ground::Ground(const GroundArguments& a, const Task& task, CommandSink& sink, Facts facts)
     : sink_(sink) {
-  if (!a.port) return;
+  const bool has_keys = a.keys && TerminalKeys::is_there();
+  if (!a.port && !has_keys) return;
+  if (a.port) link_ = operator_link(a);
+  gate_ = std::make_unique<CommandGate>(sink, link_.get());
+  if (a.port) {
+    serve(a, task, std::move(facts));
+  } else {
+    key_flight_ = std::make_unique<KeyFlight>(*gate_);
+  }
+  if (has_keys) listen_to_keys();
+}
+
+void Ground::serve(const GroundArguments& a, const Task& task, Facts facts) {
   const GroundOptions options = ground_options(a);
-  gate_ = std::make_unique<CommandGate>(sink);
   station_ = std::make_unique<GroundStation>(options, ground_token(a), task, *gate_, monotonic_s,
-                                             std::move(facts));
+                                             std::move(facts), link_.get());
   announce(station_->address(), options, a);
-  fmt::print(stderr, "                hovers until Start is pressed there; commands at port {}\n",
-             station_->command_port());
+  fmt::print(stderr,
+             "                hovers until Start is pressed there; commands at port {}, "
+             "emergency stop at port {}\n",
+             station_->command_port(), station_->stop_port());
+  if (link_) {
+    fmt::print(stderr, "                a hand flies by the ground's own link, {}\n",
+               to_string(link_->to()));
+  }
+}
+
+void Ground::listen_to_keys() {
+  fmt::print(stderr, "{}\n", station_ ? kKeysBesidePage : kKeysAlone);
+  keys_ = std::make_unique<TerminalKeys>([this](const std::string& typed) {
+    std::string words;
+    if (key_flight_) {
+      words = key_flight_->press(typed);
+    } else if (typed.find(' ') != std::string::npos) {
+      GroundCommand stop;
+      stop.ask = Ask::Abort;
+      words = station_->desk().handle(stop, monotonic_s()).answer.words;
+    }
+    if (!words.empty()) fmt::print(stderr, "\nterminal: {}\n", words);
+  });
+}
+
+std::function<Decision(Decision, const DecisionState&)> Ground::steering() {
+  if (station_) {
+    return [this](Decision decision, const DecisionState& before) {
+      return station_->steered(std::move(decision), before);
+    };
+  }
+  if (!key_flight_) return nullptr;
+  return [this](Decision decision, const DecisionState&) {
+    return key_flight_->steered(std::move(decision));
+  };
 }
 
 Task no_task() {

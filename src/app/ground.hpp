@@ -1,13 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "kestrel/ground/ground_station.hpp"
+#include "kestrel/link/operator_link.hpp"
 
 #include "arguments.hpp"
+#include "key_flight.hpp"
 #include "task_setup.hpp"
+#include "terminal_keys.hpp"
 
 namespace kestrel::app {
 
@@ -23,7 +27,12 @@ AccessToken ground_token(const GroundArguments& arguments);
 void announce(const std::string& address, const GroundOptions& options,
               const GroundArguments& arguments);
 
-/// A ground station and the gate it opens and closes before the sink; none unless asked for.
+/// The operator's own link to a switch; null when none is asked for. Throws std::invalid_argument
+/// and std::runtime_error for an address or a key file that will not do.
+std::unique_ptr<OperatorLink> operator_link(const GroundArguments& arguments);
+
+/// A ground station and the gate it opens and closes before the sink, none unless asked for; and
+/// the keys of the terminal, which close it too.
 class Ground {
  public:
   /// Serves the page when a port is asked for, and says on stderr, once, where it is and how to get
@@ -38,10 +47,19 @@ class Ground {
   /// For Chain::ground; null without.
   GroundStation* station() { return station_.get(); }
 
+  /// For Chain::steered; null where nobody steers.
+  std::function<Decision(Decision, const DecisionState&)> steering();
+
  private:
+  void serve(const GroundArguments& arguments, const Task& task, Facts facts);
+  void listen_to_keys();
+
   CommandSink& sink_;
+  std::unique_ptr<OperatorLink> link_;
   std::unique_ptr<CommandGate> gate_;
   std::unique_ptr<GroundStation> station_;
+  std::unique_ptr<KeyFlight> key_flight_;  // without a page
+  std::unique_ptr<TerminalKeys> keys_;
 };
 
 /// A sink of nothing.

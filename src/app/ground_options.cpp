@@ -31,6 +31,19 @@ void add_tls_options(CLI::App& verb, GroundArguments& ground, CLI::Option* port)
 
 }  // namespace
 
+void add_ground_link(CLI::App& verb, GroundArguments& ground) {
+  auto* link = verb.add_option(
+      "--ground-link", ground.link,
+      "A link of the operator's own to a switch, udp://HOST:PORT, of role ground there: a hand at "
+      "the page's sticks flies by it, before the law and all others (default: by the way of the "
+      "law's commands)");
+  link->needs(verb.get_option("--ground"));
+  verb.add_option("--ground-link-key", ground.link_key,
+                  "Key file of that link, as 'kestrel key FILE' makes it: frames are signed, both "
+                  "ways (default: unsigned)")
+      ->needs(verb.get_option("--ground"));
+}
+
 void add_ground_options(CLI::App& verb, GroundArguments& ground, const std::string& what) {
   auto* port = verb.add_option_function<std::uint16_t>(
       "--ground", [&ground](std::uint16_t number) { ground.port = number; }, what);

@@ -12,4 +12,7 @@ namespace kestrel::app {
 /// Wrong together (an address beyond this machine without TLS) is wrong usage.
 void add_ground_options(CLI::App& verb, GroundArguments& ground, const std::string& what);
 
+/// Those of the operator's own link to a switch, on a verb that flies; after add_ground_options.
+void add_ground_link(CLI::App& verb, GroundArguments& ground);
+
 }  // namespace kestrel::app

@@ -33,6 +33,14 @@ LearnedTask learned(const Experiment& experiment, const std::optional<Simulation
                          scene_of(simulation->scene, task.target_width_m, task.target_height_m));
 }
 
+/// The command line's, and what the task adds to it.
+GroundArguments with_task(GroundArguments ground, const Experiment& experiment) {
+  if (!ground.link.empty()) return ground;
+  ground.link = experiment.ground_link;
+  ground.link_key = experiment.ground_link_key;
+  return ground;
+}
+
 /// Takes over what the sink tells of the times of its commands.
 void note_times(const Sink& sink, WireLog* log) {
   if (log == nullptr) return;
@@ -72,7 +80,7 @@ RunResult servo(const ServoArguments& a) {
   require_resolution(experiment.task.camera, first.gray.cols, first.gray.rows,
                      experiment.camera_file.value_or(a.task));
   LearnedTask learned_task = learned(experiment, simulation, first);
-  Ground ground(a.ground, learned_task.task, *sink.commands,
+  Ground ground(with_task(a.ground, experiment), learned_task.task, *sink.commands,
                 sink.facts);  // a taken port leaves no folder
   RunRecorder recorder(recorder_options(a.run, a.task, rate_hz(experiment), {}));
   std::unique_ptr<WireLog> times;
@@ -86,6 +94,7 @@ RunResult servo(const ServoArguments& a) {
               learned_task.task, recorder,      is_watched_recording ? Pace::RealTime : a.pace,
               sink.attitude};
   chain.ground = ground.station();
+  chain.steered = ground.steering();
   if (origin_s) {
     chain.age_s = [zero_s = *origin_s](double stamp_s) { return monotonic_s() - zero_s - stamp_s; };
   }
@@ -103,7 +112,9 @@ RunResult servo(const ServoArguments& a) {
 }
 
 int run(const ServoArguments& arguments) {
-  const RunResult result = servo(arguments);
+  ServoArguments at_terminal = arguments;
+  at_terminal.ground.keys = true;
+  const RunResult result = servo(at_terminal);
   print_result(result);
   return result.exit_code;
 }

@@ -79,6 +79,7 @@ SimulatedFlight fly(const SimulateArguments& a) {
   };
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
   chain.ground = ground.station();
+  chain.steered = ground.steering();
   if (chain.ground || outside.lives_by_the_clock) chain.pace = Pace::RealTime;
   chain.velocity = [&world](double) { return world.measured_velocity_m_s(); };
   chain.age_s = [late = simulation.world.imaging.latency_s](double) { return late; };
@@ -108,7 +109,9 @@ RunResult simulate(const SimulateArguments& arguments) { return fly(arguments).r
 int run(const SimulateArguments& arguments) {
   if (arguments.real_time) return simulate_in_real_time(arguments);
   if (arguments.seeds) return fly_seeds(arguments);
-  const RunResult result = simulate(arguments);
+  SimulateArguments at_terminal = arguments;
+  at_terminal.ground.keys = true;
+  const RunResult result = simulate(at_terminal);
   print_result(result);
   return result.exit_code;
 }

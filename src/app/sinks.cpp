@@ -92,6 +92,10 @@ void add_vehicle(std::vector<Fact>& facts, const AdapterStatus& s) {
   if (s.autopilot) facts.push_back({"Mode", mode_name(*s.autopilot, beat.custom_mode)});
   facts.push_back({"Armed", (beat.base_mode & kArmed) != 0 ? "yes" : "no"});
   facts.push_back({"Landed", name(s.vehicle->landed)});
+  const Battery battery = s.vehicle->battery.value_or(Battery{});
+  const bool low = is_low(battery);
+  facts.push_back({"Battery", words(battery) + (low ? ": LOW" : ""),
+                   low ? Fact::Tone::Warning : Fact::Tone::Plain});
 }
 
 /// What the autopilot tells of itself, and how the line to it is.

@@ -1,12 +1,21 @@
 #include "kestrel/ground/command_gate.hpp"
 
+#include <utility>
+
 namespace kestrel {
 
 void CommandGate::send(const VelocityCommand& command, double stamp_s) noexcept {
   const std::lock_guard<std::mutex> lock(mutex_);
   stamp_s_ = stamp_s;
   has_sent_ = true;
-  pass(is_open_ ? command : VelocityCommand::hover());
+  const auto law = std::exchange(law_, std::nullopt);
+  if (law) by_hand_->send(command, stamp_s);
+  pass(is_open_ ? law.value_or(command) : VelocityCommand::hover());
+}
+
+void CommandGate::fork(const VelocityCommand& law) noexcept {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_open_ && by_hand_ != nullptr) law_ = law;
 }
 
 /// With the mutex held.
@@ -23,12 +32,13 @@ GateCounts CommandGate::counts() const {
 
 long CommandGate::failures() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return behind_.failures();
+  return behind_.failures() + (by_hand_ != nullptr ? by_hand_->failures() : 0);
 }
 
 void CommandGate::close() noexcept {
   const std::lock_guard<std::mutex> lock(mutex_);
   is_open_ = false;
+  law_.reset();
   if (has_sent_) pass(VelocityCommand::hover());
 }
 

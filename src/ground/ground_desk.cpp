@@ -35,12 +35,14 @@ std::vector<std::string> laws_of(const Task& task) {
 
 }  // namespace
 
-GroundDesk::GroundDesk(const Task& task, CommandGate& gate, const std::string& run)
+GroundDesk::GroundDesk(const Task& task, CommandGate& gate, const std::string& run,
+                       OperatorLink* by_hand)
     : task_(task),
       most_gain_per_s_(task.servo.gain_per_s),
       most_speed_(task.limits.speed),
       laws_(laws_of(task)),
       gate_(gate),
+      by_hand_(by_hand),
       post_(run) {}
 
 Reply GroundDesk::handle(const GroundCommand& command, double now_s) {
@@ -122,13 +124,18 @@ void GroundDesk::notice_silence(double now_s) {
 }
 
 Answer GroundDesk::stop_or_start(Ask ask) {
-  const ModeChange change = changed(mode_, ask);
+  if (const std::string why = refused_by_switch(ask); !why.empty()) return refused(why);
+  ModeChange change = changed(mode_, ask);
+  if (resets_switch_only(ask)) {
+    change = {FlightMode::Hover, {Answer::Kind::Done, "reset of the switch: hover until start"}};
+  }
   if (change.mode != FlightMode::Sticks) sticks_.let_go();
   if (change.mode == FlightMode::Servo || change.mode == FlightMode::Sticks) {
     gate_.open();
   } else {
     gate_.close();
   }
+  if (change.answer.kind == Answer::Kind::Done) tell_switch(ask, mode_);
   if (change.mode != mode_) tell(change.answer.words);
   mode_ = change.mode;
   return change.answer;
@@ -136,14 +143,16 @@ Answer GroundDesk::stop_or_start(Ask ask) {
 
 void GroundDesk::look_after(double now_s) {
   const Lock lock(mutex_);
+  hear_switch();
   notice_silence(now_s);
 }
 
-Decision GroundDesk::steered(Decision decision, const DecisionState& before, double now_s) const {
+Decision GroundDesk::steered(Decision decision, const DecisionState& before, double now_s) {
   const Lock lock(mutex_);
   if (mode_ == FlightMode::Servo) return decision;
   const bool by_a_hand = mode_ == FlightMode::Sticks && sticks_.are_held(now_s);
   if (!by_a_hand) return stopped(std::move(decision));
+  gate_.fork(law_flew_ ? decision.command : VelocityCommand::hover());
   return by_hand(std::move(decision), sticks_.wanted(now_s), before, task_.limits);
 }
 
@@ -179,7 +188,8 @@ DeskStatus GroundDesk::status() const {
           laws_,
           gate_.counts(),
           gate_.failures(),
-          {events_.begin(), events_.end()}};
+          {events_.begin(), events_.end()},
+          way()};
 }
 
 void GroundDesk::tell(const std::string& words) {

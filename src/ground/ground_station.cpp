@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kPageThreads = 16;  // besides the streams
 constexpr std::size_t kCommandThreads = 64;
+constexpr std::size_t kStopThreads = 16;
 
 void require(bool good, const char* what) {
   if (!good) throw std::invalid_argument(what);
@@ -67,6 +68,8 @@ void GroundOptions::check() const {
   require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality: must be 1 to 100");
   require(command_port == 0 || command_port != port,
           "command_port: must not be the port of the page");
+  require(stop_port == 0 || (stop_port != port && stop_port != command_port),
+          "stop_port: must not be the port of the page or of the commands");
 }
 
 struct GroundStation::Parts {
@@ -74,30 +77,36 @@ struct GroundStation::Parts {
   LatestValue<Shown> views;
   HttpServer page;
   HttpServer commands;
+  HttpServer stops;
   std::thread encoder;
   std::thread watchman;
 
   Parts(const GroundOptions& options, const AccessToken& token, const Task& task, CommandGate& gate,
-        Clock now_s, Facts facts)
+        Clock now_s, Facts facts, OperatorLink* by_hand)
       : shared{options,
                token,
                std::move(now_s),
                std::move(facts),
-               {task, gate, word_of_this_run()},
+               {task, gate, word_of_this_run(), by_hand},
                {},
                {},
+               {0},
                {0},
                {0},
                {0}},
         page(modest(guarded(shared, kPageThreads + std::size_t(options.max_streams))),
              shared.refusals.connections),
-        commands(guarded(shared, kCommandThreads), shared.refusals.connections) {
+        commands(guarded(shared, kCommandThreads), shared.refusals.connections),
+        stops(guarded(shared, kStopThreads), shared.refusals.connections) {
     serve_page(page.routes(), shared);
     serve_commands(commands.routes(), shared);
-    // The commands first: a page that is served can command.
-    const bool next = options.command_port == 0 && options.port != 0;
-    shared.command_port = commands.listen(
-        options.host, next ? std::uint16_t(options.port + 1) : options.command_port);
+    serve_stops(stops.routes(), shared);
+    // The page last: one that is served can command and stop.
+    const auto port_of = [&](std::uint16_t given, int behind) {
+      return given == 0 && options.port != 0 ? std::uint16_t(options.port + behind) : given;
+    };
+    shared.stop_port = stops.listen(options.host, port_of(options.stop_port, 2));
+    shared.command_port = commands.listen(options.host, port_of(options.command_port, 1));
     shared.page_port = page.listen(options.host, options.port);
     encoder = std::thread([this] { encode(); });
     watchman = std::thread([this] { watch(); });
@@ -108,6 +117,7 @@ struct GroundStation::Parts {
     shared.frames.close();
     page.stop();
     commands.stop();
+    stops.stop();
     if (encoder.joinable()) encoder.join();
     if (watchman.joinable()) watchman.join();
   }
@@ -146,20 +156,23 @@ struct GroundStation::Parts {
 };
 
 GroundStation::GroundStation(const GroundOptions& options, const AccessToken& token,
-                             const Task& task, CommandGate& gate, Clock now_s, Facts facts) {
+                             const Task& task, CommandGate& gate, Clock now_s, Facts facts,
+                             OperatorLink* by_hand) {
   options.check();
-  parts_ = std::make_unique<Parts>(options, token, task, gate, std::move(now_s), std::move(facts));
+  parts_ = std::make_unique<Parts>(options, token, task, gate, std::move(now_s), std::move(facts),
+                                   by_hand);
 }
 
 GroundStation::~GroundStation() = default;
 
 std::uint16_t GroundStation::port() const { return parts_->shared.page_port; }
 std::uint16_t GroundStation::command_port() const { return parts_->shared.command_port; }
+std::uint16_t GroundStation::stop_port() const { return parts_->shared.stop_port; }
 GroundDesk& GroundStation::desk() { return parts_->shared.desk; }
 
 std::string GroundStation::address() const { return address_of(parts_->shared); }
 
-Decision GroundStation::steered(Decision decision, const DecisionState& before) const {
+Decision GroundStation::steered(Decision decision, const DecisionState& before) {
   return parts_->shared.desk.steered(std::move(decision), before, parts_->shared.now_s());
 }
 

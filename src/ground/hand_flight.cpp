@@ -38,6 +38,7 @@ Decision by_hand(Decision decision, const VelocityCommand& wanted, const Decisio
   const double gone_s = std::min(*stamp_s - *before.stamp_s, HeldSticks::kFresh_s);
   decision.command = limited(before.sent, wanted, limits, gone_s);
   decision.next.sent = decision.command;
+  decision.state = CommandState::Sticks;
   return decision;
 }
 

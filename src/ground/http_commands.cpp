@@ -105,6 +105,19 @@ void take_command(Shared& shared, Rates& rates, const Request& request, Response
   answer(reply, shared.desk.mode(), response);
 }
 
+/// Whatever the body says.
+void take_stop(Shared& shared, const Request& request, Response& response) {
+  if (!admits_origin(shared, request, response) || !lets_in(shared, request, response)) return;
+  if (!shared.options.view_only.empty()) {
+    ++shared.refusals.view_only;
+    return say(response, 409, shared.options.view_only);
+  }
+  GroundCommand stop;
+  stop.ask = Ask::Abort;
+  const Reply reply = shared.desk.handle(stop, shared.now_s());
+  answer(reply, shared.desk.mode(), response);
+}
+
 /// A browser asks first whether a page of another port may send what it wants to send (the
 /// preflight of the fetch standard, "CORS").
 void take_preflight(Shared& shared, const Request& request, Response& response) {
@@ -131,6 +144,18 @@ void serve_commands(httplib::Server& server, Shared& shared) {
   });
   server.Post("/command", [&shared, rates](const Request& request, Response& response) {
     take_command(shared, *rates, request, response);
+  });
+}
+
+void serve_stops(httplib::Server& server, Shared& shared) {
+  count_refusals(server, shared);
+  server.set_default_headers(
+      {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}});
+  server.Options("/stop", [&shared](const Request& request, Response& response) {
+    take_preflight(shared, request, response);
+  });
+  server.Post("/stop", [&shared](const Request& request, Response& response) {
+    take_stop(shared, request, response);
   });
 }
 

@@ -18,7 +18,8 @@ std::string content_policy(const Shared& shared, std::string_view host) {
   return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
          "connect-src 'self' " +
          std::string(scheme(shared)) + "://" + std::string(host) + ':' +
-         std::to_string(shared.command_port) +
+         std::to_string(shared.command_port) + ' ' + scheme(shared) + "://" + std::string(host) +
+         ':' + std::to_string(shared.stop_port) +
          "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
@@ -29,6 +30,7 @@ void put(std::string& html, std::string_view place, int number) {
 std::string filled_html(const Shared& shared) {
   std::string html(ground_html());
   put(html, "{{COMMAND_PORT}}", shared.command_port);
+  put(html, "{{STOP_PORT}}", shared.stop_port);
   put(html, "{{RECORDED_RUNS}}", shared.recorded_runs);
   return html;
 }
@@ -99,7 +101,9 @@ std::string desk_json(const Shared& shared) {
   const DeskStatus s = shared.desk.status();
   Json facts = Json::array();
   if (shared.facts) {
-    for (const Fact& fact : shared.facts()) facts.push_back({fact.name, fact.words});
+    for (const Fact& fact : shared.facts()) {
+      facts.push_back({fact.name, fact.words, fact.tone == Fact::Tone::Warning ? "warn" : ""});
+    }
   }
   Json events = Json::array();
   for (const GroundEvent& e : s.events) {
@@ -111,22 +115,24 @@ std::string desk_json(const Shared& shared) {
     refused += count;
     refusals[word] = count;
   }
-  return Json{{"mode", name(s.mode)},
-              {"commander", s.commander},
-              {"asker", s.asker},
-              {"gain_per_s", s.gain_per_s},
-              {"most_gain_per_s", s.most_gain_per_s},
-              {"speed", velocities(s.limits.speed)},
-              {"most_speed", velocities(s.most_speed)},
-              {"law", s.law},
-              {"laws", s.laws},
-              {"sent", {s.sent.commands, s.sent.zeros, s.failures}},
-              {"facts", facts},
-              {"events", events},
-              {"viewers", shared.viewers.load()},
-              {"refused", refused},
-              {"refusals", refusals},
-              {"view_only", shared.options.view_only}}
+  return Json{
+      {"mode", name(s.mode)},
+      {"commander", s.commander},
+      {"asker", s.asker},
+      {"gain_per_s", s.gain_per_s},
+      {"most_gain_per_s", s.most_gain_per_s},
+      {"speed", velocities(s.limits.speed)},
+      {"most_speed", velocities(s.most_speed)},
+      {"law", s.law},
+      {"laws", s.laws},
+      {"sent", {s.sent.commands, s.sent.zeros, s.failures}},
+      {"facts", facts},
+      {"events", events},
+      {"way", {{"words", s.way.words}, {"is_own", s.way.is_own}, {"stopped", s.way.stopped}}},
+      {"viewers", shared.viewers.load()},
+      {"refused", refused},
+      {"refusals", refusals},
+      {"view_only", shared.options.view_only}}
       .dump();
 }
 

@@ -14,7 +14,7 @@
 
 #include "guarded_server.hpp"
 
-// The two servers behind GroundStation.
+// The servers behind GroundStation.
 namespace kestrel {
 
 /// Counts that several threads add to.
@@ -66,6 +66,7 @@ struct Shared {
   std::atomic<int> viewers{0};
   std::atomic<std::uint16_t> page_port{0};
   std::atomic<std::uint16_t> command_port{0};
+  std::atomic<std::uint16_t> stop_port{0};
   const int recorded_runs = 0;  // shown instead of a flight
 };
 
@@ -96,9 +97,13 @@ void serve_page(httplib::Server& server, Shared& shared);
 /// Commands.
 void serve_commands(httplib::Server& server, Shared& shared);
 
+/// The emergency stop: POST /stop with the token, at any rate, and nothing else.
+void serve_stops(httplib::Server& server, Shared& shared);
+
 /// How the desk stands, JSON: mode, commander, asker, gain_per_s, most_gain_per_s, speed,
-/// most_speed, law, laws, sent (commands, zeros, failures), facts (pairs of words), events,
-/// viewers, refused, refusals (each of GroundRefusals), view_only.
+/// most_speed, law, laws, sent (commands, zeros, failures), facts (name, words and "warn" or ""),
+/// events, way (words, is_own, stopped), viewers, refused, refusals (each of GroundRefusals),
+/// view_only.
 std::string desk_json(const Shared& shared);
 
 }  // namespace kestrel

@@ -84,6 +84,7 @@ struct ReplayStation::Parts {
                {0},
                {0},
                {0},
+               {0},
                int(recordings.size())},
         page(guarded(shared, kThreads), shared.refusals.connections) {
     serve_files(page.routes(), shared);

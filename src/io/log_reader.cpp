@@ -41,12 +41,7 @@ Miss parsed(std::string_view text, Miss) { return named(text, kMisses); }
 TrackStatus parsed(std::string_view text, TrackStatus) { return named(text, kTrackStatuses); }
 TrackStage parsed(std::string_view text, TrackStage) { return named(text, kTrackStages); }
 
-CommandState parsed(std::string_view text, CommandState) {
-  for (const CommandState state :
-       {CommandState::Servo, CommandState::Hold, CommandState::Decay, CommandState::Hover})
-    if (text == name(state)) return state;
-  throw std::bad_optional_access();
-}
+CommandState parsed(std::string_view text, CommandState) { return named(text, kCommandStates); }
 
 // Counts the fields that have text.
 struct Filled {

@@ -1,5 +1,7 @@
 #include "kestrel/io/run_figures.hpp"
 
+#include <algorithm>
+
 #include "kestrel/io/svg_strip.hpp"
 
 #include "run_series.hpp"
@@ -70,9 +72,14 @@ std::string command(const LogFile& log, const RunView& view, int axis) {
 
 std::string states(const LogFile& log) {
   Strip strip{"What the command rests on", "time (s)", {}, times(log), {}};
-  for (const CommandState state :
-       {CommandState::Servo, CommandState::Hold, CommandState::Decay, CommandState::Hover})
-    strip.lanes.emplace_back(name(state));
+  const auto by_hand = [](const LogRow& row) {
+    return row.decision && row.decision->state == CommandState::Sticks;
+  };
+  const bool flown_by_hand = std::any_of(log.rows.begin(), log.rows.end(), by_hand);
+  for (const CommandState state : kCommandStates) {
+    // Most runs know no hand: no empty lane for it.
+    if (state != CommandState::Sticks || flown_by_hand) strip.lanes.emplace_back(name(state));
+  }
   for (const LogRow& row : log.rows)
     strip.states.emplace_back(row.decision ? name(row.decision->state) : "");
   return svg_strip(strip);

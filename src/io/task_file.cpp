@@ -35,6 +35,14 @@ SourceAddress read_source(const Section& root) {
   return source;
 }
 
+std::string read_ground_link(const Section& root) {
+  std::string link = root.text("ground_link");
+  if (!begins_with(link, "udp://")) {
+    root.fail("ground_link", "is '" + link + "'; give udp://HOST:PORT");
+  }
+  return link;
+}
+
 std::string read_sink(const Section& root) {
   std::string sink = root.text("sink", std::string("none"));
   if (sink != "none" && !begins_with(sink, "udp://") && !begins_with(sink, "autopilot:udp://")) {
@@ -162,6 +170,8 @@ Experiment read_experiment(const Section& root) {
   if (found.camera.parameters().lens != Lens::Pinhole) task.track.lens = found.camera;
   Experiment e{root.file(), source.text, read_sink(root), task, {},
                {},          {},          found.file,      {},   read_live_options(root)};
+  if (root.has("ground_link")) e.ground_link = read_ground_link(root);
+  if (root.has("ground_link_key")) e.ground_link_key = root.path("ground_link_key");
   e.sequence = read_recording(root, source, described);
   if (target.has("image")) e.template_image = target.path("image");
   if (target.has("template_px")) {

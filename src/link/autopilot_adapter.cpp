@@ -78,8 +78,9 @@ bool AutopilotAdapter::is_vehicle(const mavlink::Packet& packet) {
 
 void AutopilotAdapter::ask_for_telemetry() {
   intervals_.clear();
-  for (const auto& [id, rate_hz] : {std::pair(30u, options_.attitude_hz),
-                                    std::pair(32u, options_.position_hz), std::pair(245u, 2.0)}) {
+  for (const auto& [id, rate_hz] :
+       {std::pair(30u, options_.attitude_hz), std::pair(32u, options_.position_hz),
+        std::pair(245u, 2.0), std::pair(1u, 1.0)}) {
     intervals_.emplace_back(interval_request(id, rate_hz, vehicle()), options_.handshake.request);
   }
 }

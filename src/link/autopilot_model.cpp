@@ -44,6 +44,7 @@ void AutopilotModelOptions::check() const {
   require(sink_m_s > 0 && std::isfinite(sink_m_s), "sink_m_s: must be positive (m/s)");
   require(px4_takeoff_m > 0 && std::isfinite(px4_takeoff_m), "px4_takeoff_m: must be positive (m)");
   require(telemetry_hz > 0 && std::isfinite(telemetry_hz), "telemetry_hz: must be positive (Hz)");
+  battery.check();
 }
 
 AutopilotModel::AutopilotModel(const AutopilotModelOptions& options)
@@ -52,7 +53,8 @@ AutopilotModel::AutopilotModel(const AutopilotModelOptions& options)
       mode_(options.start_mode.value_or(options.autopilot == Autopilot::Px4 ? kPx4Hold : 5)),
       armed_(options.starts_armed) {
   options_.check();
-  interval_s_ = {{0, 1.0}, {30, 1 / options_.telemetry_hz}, {32, 1 / options_.telemetry_hz}};
+  interval_s_ = {
+      {0, 1.0}, {1, 1.0}, {30, 1 / options_.telemetry_hz}, {32, 1 / options_.telemetry_hz}};
   if (options_.autopilot == Autopilot::Px4) interval_s_[245] = 0.5;  // ArduPilot waits to be asked
 }
 
@@ -147,6 +149,7 @@ AutopilotModel::Frames AutopilotModel::tick(const VehicleTruth& truth, double no
   if (!alive_) return {};
   time_out(now_s);
   climb_or_sink(truth, now_s);
+  drain(truth, now_s);
   Frames due;
   for (const auto& [id, interval_s] : interval_s_) {
     if (is_due(id, now_s)) due.push_back(framed(report(id, truth, now_s)));

@@ -133,13 +133,21 @@ void SwitchCore::send_due(SwitchTime time) {
   }
 }
 
+ControlWord SwitchCore::control() const {
+  ControlWord word{desk_.arbiter().state(), std::nullopt};
+  const auto owner = desk_.arbiter().owner();
+  const auto peer = owner ? peers_.find(owner->peer) : peers_.end();
+  if (peer != peers_.end()) word.owner = link_of(peer->second).role;
+  return word;
+}
+
 void SwitchCore::send_heartbeats(SwitchTime time) {
   if (time.now_s < next_heartbeat_s_) return;
   next_heartbeat_s_ = time.now_s + options_.heartbeat_period_s;
   constexpr std::uint8_t kActive = 4, kEmergency = 6;  // MAV_STATE
   mavlink::Heartbeat heartbeat;
   const ControlState state = desk_.arbiter().state();
-  heartbeat.custom_mode = std::uint32_t(state);
+  heartbeat.custom_mode = bits_of(control());
   heartbeat.system_status = state == ControlState::Stopped ? kEmergency : kActive;
   const mavlink::Envelope envelope = next_envelope();
   for (auto& [id, peer] : peers_) {

@@ -168,6 +168,7 @@ Reason SwitchCore::take_control(Peer& peer, const FrameView& frame, Arrival arri
   mavlink::CommandAck ack;
   ack.command = command.command;
   ack.result = done ? kAccepted : known ? kDenied : kUnsupported;
+  ack.result_param2 = std::int32_t(bits_of(control()));
   ack.target_system = frame.envelope().system_id;
   ack.target_component = frame.envelope().component_id;
   outbox_.post(ack, next_envelope(), addressee(peer));

@@ -73,10 +73,13 @@ void Telemetry::take(const mavlink::Message& message, double now_s,
     const bool is_known = extended->landed_state <= std::uint8_t(Landed::Landing);
     landed_ = is_known ? Landed(extended->landed_state) : Landed::Unknown;
   } else if (const auto* heartbeat = std::get_if<mavlink::Heartbeat>(&message)) {
-    state_ = VehicleState{*heartbeat, now_s, landed_, down_m_};
+    state_ = VehicleState{*heartbeat, now_s, landed_, down_m_, battery_};
+  } else if (const auto* status = std::get_if<mavlink::SysStatus>(&message)) {
+    battery_ = battery_of(*status);
   }
   if (state_) state_->landed = landed_;
   if (state_) state_->down_m = down_m_;
+  if (state_) state_->battery = battery_;
 }
 
 void Telemetry::take_attitude(const mavlink::AttitudeReport& r, double now_s,

@@ -42,6 +42,8 @@ const char* name(CommandState state) {
       return "decay";
     case CommandState::Hover:
       return "hover";
+    case CommandState::Sticks:
+      return "sticks";
   }
   return "unknown";
 }

@@ -21,11 +21,11 @@
 #include "kestrel/ground/access_token.hpp"
 #include "kestrel/ground/replay_run.hpp"
 #include "kestrel/io/run_log.hpp"
-#include "kestrel/link/command_receiver.hpp"
 #include "kestrel/link/key_file.hpp"
 
 #include "bench/ground_viewers.hpp"
 #include "cli/program.hpp"
+#include "cli/wire_listener.hpp"
 #include "support/temp_folder.hpp"
 
 namespace kestrel::bench {
@@ -37,9 +37,8 @@ constexpr double kTurn_s = 4;
 constexpr double kSettle_s = 0.5;  // of each turn: viewers come and go
 constexpr int kAborts = 20;
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+using test::now_s;
+
 void nap(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
 
 double quantile(std::vector<double> values, double share) {
@@ -47,40 +46,6 @@ double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[std::size_t(share * double(values.size() - 1))];
 }
-
-/// What goes out on the wire.
-class Wire {
- public:
-  Wire() : thread_([this] { listen(); }) {}
-  ~Wire() {
-    done_ = true;
-    thread_.join();
-  }
-  Wire(const Wire&) = delete;
-  Wire& operator=(const Wire&) = delete;
-  std::string url() const { return to_string(receiver_.local()); }
-  double stamp_s() const { return stamp_s_; }
-  double speed() const { return speed_; }
-  double stopped_s() const { return stopped_s_; }
-
- private:
-  void listen() {
-    while (!done_) {
-      for (const ReceivedCommand& received : receiver_.poll(0.02)) {
-        const double speed = received.command.vector().norm();
-        if (speed == 0 && speed_ > 0) stopped_s_ = now_s();
-        speed_ = speed;
-        stamp_s_ = double(received.time_boot_ms) / 1e3;
-      }
-    }
-  }
-  CommandReceiver receiver_{Address{"127.0.0.1", 0}};
-  std::atomic<bool> done_{false};
-  std::atomic<double> stamp_s_{0};
-  std::atomic<double> speed_{0};
-  std::atomic<double> stopped_s_{0};
-  std::thread thread_;
-};
 
 /// Part of the flight, by the stamps of its frames.
 struct Turn {
@@ -146,7 +111,7 @@ class Flight {
       if (ages != nullptr) ages->note(frame);
     });
   }
-  const Wire& wire() const { return wire_; }
+  const test::WireListener& wire() const { return wire_; }
 
   /// Flies on for a turn.
   Turn turn() {
@@ -180,7 +145,7 @@ class Flight {
 
   const int port_;
   const test::TempFolder folder_;
-  Wire wire_;
+  test::WireListener wire_;
   std::string bearer_;
   std::string client_;
   std::unique_ptr<test::Program> program_;

@@ -96,10 +96,10 @@ TEST_F(Hand, WhoseBrowserDiesLetsGo) {
   ASSERT_TRUE(comes([&] { return vehicle_.stopped_s() > crash_s; }));
   std::printf("browser killed with the sticks held -> first zero on the wire: %.3f s\n",
               vehicle_.stopped_s() - crash_s);
-  vehicle_.fastest_m_s();
+  vehicle_.fastest();
   const long heard = vehicle_.heard();
   EXPECT_TRUE(comes([&] { return vehicle_.heard() > heard + 20; }));
-  EXPECT_EQ(vehicle_.fastest_m_s(), 0);
+  EXPECT_EQ(vehicle_.fastest(), 0);
 }
 
 TEST_F(Hand, IsToldWhenTheLineIsCutAndWhenItIsBack) {
@@ -144,7 +144,7 @@ TEST_F(Hand, ChoosesLawLimitsAndGoalByNumbers) {
   EXPECT_TRUE(says("events", "goal -6.00 m forward"));
   browser_->click("start");
   EXPECT_TRUE(moves([](const VelocityCommand& c) { return c.forward_m_s > 0.1; }));
-  EXPECT_LE(vehicle_.fastest_m_s(), 3);
+  EXPECT_LE(vehicle_.fastest(), 3);
   EXPECT_TRUE(says("map_words", "before it"));
   EXPECT_TRUE(says("horizon_words", "Roll"));
   EXPECT_TRUE(says("link", "a second"));

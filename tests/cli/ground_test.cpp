@@ -21,7 +21,7 @@ TEST_F(Ground, AnOperatorStartsHoldsAViewAborts) {
   EXPECT_TRUE(comes([&] { return frame() > before; })) << "the picture stands still";
   EXPECT_TRUE(says("sight", "Target seen"));
   EXPECT_TRUE(comes([&] { return vehicle_.heard() > 10; }));
-  EXPECT_EQ(vehicle_.fastest_m_s(), 0) << "it moves before Start";
+  EXPECT_EQ(vehicle_.fastest(), 0) << "it moves before Start";
 
   browser_->click("take");
   ASSERT_TRUE(says("answer", "you have the command"));
@@ -30,23 +30,23 @@ TEST_F(Ground, AnOperatorStartsHoldsAViewAborts) {
   }));
   browser_->click("start");
   ASSERT_TRUE(says("answer", "servoing"));
-  EXPECT_TRUE(comes([&] { return vehicle_.speed_m_s() > 0.05; }));
+  EXPECT_TRUE(comes([&] { return vehicle_.speed() > 0.05; }));
   EXPECT_TRUE(says("mode", "Servoing"));
 
   browser_->click("hold_view");
   EXPECT_TRUE(says("answer", "is the goal"));
   EXPECT_TRUE(says("events", "is the goal"));
   // The helicopter brakes and comes back to where it was asked: the command falls to almost none.
-  EXPECT_TRUE(comes([&] { return vehicle_.speed_m_s() < 0.05; }));
+  EXPECT_TRUE(comes([&] { return vehicle_.speed() < 0.05; }));
   EXPECT_TRUE(says("mode", "Servoing"));
 
   browser_->click("abort");
   ASSERT_TRUE(says("answer", "aborted"));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  vehicle_.fastest_m_s();
+  vehicle_.fastest();
   const long heard = vehicle_.heard();
   EXPECT_TRUE(comes([&] { return vehicle_.heard() > heard + 20; }));
-  EXPECT_EQ(vehicle_.fastest_m_s(), 0) << "an abort stays";
+  EXPECT_EQ(vehicle_.fastest(), 0) << "an abort stays";
   EXPECT_TRUE(says("mode", "ABORTED"));
   EXPECT_EQ(browser_->run("return document.getElementById('start').disabled"), "true");
 }

@@ -61,7 +61,7 @@ class Replay : public testing::Test {
     return std::make_unique<Program>(arguments, folder_.path());
   }
   std::unique_ptr<Browser> browser(const std::string& scheme = "http") {
-    auto made = std::make_unique<Browser>(port_ + 2, folder_.path());
+    auto made = std::make_unique<Browser>(port_ + 3, folder_.path());
     const std::string page = scheme + "://127.0.0.1:" + std::to_string(port_) + "/#token=" + kToken;
     EXPECT_TRUE(comes([&] {
       try {

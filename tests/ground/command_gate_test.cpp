@@ -58,6 +58,39 @@ TEST(CommandGate, CountsWhatWentThrough) {
   EXPECT_EQ(gate.counts().zeros, 2);
 }
 
+TEST(CommandGate, AHandHasAWayOfItsOwnBesideTheLaw) {
+  Written law;
+  Written hand;
+  CommandGate gate(law, &hand);
+  const VelocityCommand right{0, 0.2, 0, 0};
+  gate.fork(right);
+  gate.send(kForward, 1);
+  EXPECT_TRUE(law.all.back().first.vector().isZero(0)) << "closed";
+  EXPECT_TRUE(hand.all.empty());
+  gate.open();
+  gate.fork(right);
+  gate.send(kForward, 2);
+  EXPECT_EQ(law.all.back().first.vector(), right.vector());
+  ASSERT_EQ(hand.all.size(), 1u);
+  EXPECT_EQ(hand.all.back().first.vector(), kForward.vector());
+  gate.send(kForward, 3);
+  EXPECT_EQ(hand.all.size(), 1u) << "for one command only";
+  EXPECT_EQ(law.all.back().first.vector(), kForward.vector());
+  EXPECT_EQ(gate.failures(), 6) << "of both ways";
+}
+
+TEST(CommandGate, ClosingForgetsTheHand) {
+  Written law;
+  Written hand;
+  CommandGate gate(law, &hand);
+  gate.open();
+  gate.fork(kForward);
+  gate.close();
+  gate.open();
+  gate.send(kForward, 1);
+  EXPECT_TRUE(hand.all.empty()) << "it was decided before the stop";
+}
+
 TEST(CommandGate, NothingIsSentBeforeTheFirstFrame) {
   Written written;
   CommandGate gate(written);

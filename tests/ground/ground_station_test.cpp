@@ -112,6 +112,35 @@ TEST_F(Station, AFloodOfCommandsIsRefusedButNotAStop) {
   EXPECT_EQ(client_.post(R"({"do":"abort"})").status, 200);
 }
 
+TEST_F(Station, TheStopHasAPortOfItsOwn) {
+  EXPECT_NE(client_.get("/")->body.find("content=\"" + std::to_string(station_->stop_port()) + '"'),
+            std::string::npos);
+  for (int i = 0; i < 100; ++i) client_.post(R"({"do":"join"})");
+  EXPECT_EQ(StationClient(*station_, random_token()).stop().status, 401);
+  EXPECT_EQ(client_.stop({{"Origin", "http://evil.example"}}).status, 403);
+  EXPECT_EQ(client_.stop({{"Host", "evil.example"}}).status, 421);
+  EXPECT_EQ(station_->desk().mode(), FlightMode::Hover);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(client_.stop().status, 200) << "at any rate";
+  EXPECT_EQ(station_->desk().mode(), FlightMode::Aborted);
+  for (const char* path : {"/", "/status", "/stream", "/command", "/stop", "/ground.js"}) {
+    EXPECT_EQ(client_.stop_port_gives(path), 404) << path;
+  }
+}
+
+TEST_F(Station, TheStatusTellsFactsAndTheWayOfAHand) {
+  const auto facts = [] {
+    return std::vector<Fact>{{"Mode", "GUIDED"},
+                             {"Battery", "10.6 V, 7 %: LOW", Fact::Tone::Warning}};
+  };
+  GroundStation telling(
+      {}, token_, task_, gate_, [] { return 0.0; }, facts);
+  const Json status = StationClient(telling, token_).status();
+  EXPECT_EQ(status["facts"],
+            Json::parse(R"([["Mode","GUIDED",""],["Battery","10.6 V, 7 %: LOW","warn"]])"));
+  EXPECT_EQ(status["way"]["is_own"], false);
+  EXPECT_FALSE(status["way"]["words"].get<std::string>().empty());
+}
+
 TEST_F(Station, AFloodOfCommandsHoldsNoHandBackNorDoesAHandFlood) {
   const std::string name = client_.join();
   std::uint64_t number = 0;
@@ -208,6 +237,9 @@ TEST(GroundOptions, NameWhatIsOutOfRange) {
   EXPECT_THROW(options.check(), std::invalid_argument);
   options = {};
   options.port = options.command_port = 8080;
+  EXPECT_THROW(options.check(), std::invalid_argument);
+  options = {};
+  options.port = options.stop_port = 8080;
   EXPECT_THROW(options.check(), std::invalid_argument);
 }
 

@@ -75,7 +75,7 @@ Decision after_frames(int frames, const VelocityCommand& wanted, const CommandLi
 TEST(ByHand, TheSticksTakeThePlaceOfTheLaw) {
   const Decision decision = after_frames(100, kForward, CommandLimits{});
   EXPECT_EQ(decision.command.vector(), kForward.vector());
-  EXPECT_EQ(decision.state, CommandState::Hover) << "it rests on nothing that was seen";
+  EXPECT_EQ(decision.state, CommandState::Sticks) << "it rests on nothing that was seen";
   EXPECT_EQ(decision.wanted.right_m_s, 0.7) << "what the law wants is still to be seen";
   EXPECT_FALSE(decision.next.seen_stamp_s) << "nothing to hold when the target is lost";
   EXPECT_EQ(decision.next.timing.period_s, 0.04);

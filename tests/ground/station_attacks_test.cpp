@@ -140,6 +140,37 @@ TEST_F(Attack, AbortPassesWhileConnectionsKeepComing) {
   EXPECT_EQ(station_->desk().mode(), FlightMode::Aborted);
 }
 
+TEST_F(Attack, FloodedStreamsAndCommandsDoNotTouchTheStop) {
+  GroundOptions patient;
+  patient.request_s = 60;
+  const auto held = station(patient);
+  std::vector<std::unique_ptr<RawConnection>> attackers;
+  const std::string trusted = "Authorization: Bearer " + token_.text() + "\r\n";
+  for (int i = 0; i < 64; ++i) {  // with the token: these are not pushed out
+    attackers.push_back(std::make_unique<RawConnection>(held->command_port()));
+    attackers.back()->send(kBegun + trusted + "Content-Length: 20\r\n\r\n{");
+  }
+  for (int i = 0; i < 6; ++i) {
+    attackers.push_back(std::make_unique<RawConnection>(held->port()));
+    attackers.back()->send("GET /stream HTTP/1.1\r\nHost: 127.0.0.1\r\n" + trusted + "\r\n");
+  }
+  EXPECT_EQ(StationClient(*held, token_).stop().status, 200);
+  EXPECT_EQ(held->desk().mode(), FlightMode::Aborted);
+}
+
+TEST_F(Attack, TwoHundredConnectionsDoNotKeepAStopOut) {
+  GroundOptions patient;
+  patient.request_s = 60;
+  const auto held = station(patient);
+  std::vector<std::unique_ptr<RawConnection>> attackers;
+  for (int i = 0; i < 200; ++i) {
+    attackers.push_back(std::make_unique<RawConnection>(held->stop_port()));
+    ASSERT_TRUE(attackers.back()->send("POST /stop HTTP/1.1\r\nHost: 127.0.0.1\r\n")) << i;
+  }
+  EXPECT_EQ(StationClient(*held, token_).stop().status, 200);
+  EXPECT_EQ(held->desk().mode(), FlightMode::Aborted);
+}
+
 TEST_F(Attack, PageWithAllItsPlacesHeldIsServed) {
   GroundOptions patient;
   patient.request_s = 60;

@@ -24,6 +24,7 @@ class StationClient {
   StationClient(const GroundStation& station, const AccessToken& token)
       : page_("127.0.0.1", station.port()),
         commands_("127.0.0.1", station.command_port()),
+        stops_("127.0.0.1", station.stop_port()),
         bearer_("Bearer " + token.text()) {}
 
   httplib::Result get(const std::string& path) { return page_.Get(path); }
@@ -33,6 +34,14 @@ class StationClient {
     const auto answer = commands_.Post("/command", more, body, "application/json");
     return answer ? *answer : httplib::Response{};
   }
+
+  /// The emergency stop, at its own port.
+  httplib::Response stop(httplib::Headers more = {}) {
+    more.emplace("Authorization", bearer_);
+    const auto answer = stops_.Post("/stop", more, "", "text/plain");
+    return answer ? *answer : httplib::Response{};
+  }
+  int stop_port_gives(const std::string& path) { return stops_.Get(path)->status; }
 
   Json status() { return Json::parse(page_.Get("/status", {{"Authorization", bearer_}})->body); }
 
@@ -72,6 +81,7 @@ class StationClient {
  private:
   httplib::Client page_;
   httplib::Client commands_;
+  httplib::Client stops_;
   std::string bearer_;
 };
 

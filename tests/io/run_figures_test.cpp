@@ -52,6 +52,13 @@ TEST(RunFigures, ShowTheStatesByTheirShares) {
   EXPECT_THAT(all, HasSubstr(share));
 }
 
+TEST(RunFigures, GiveAHandALaneWhereOneFlew) {
+  LogFile log = test::made_up_flight();
+  EXPECT_THAT(joined(servo_sections(log, view())), testing::Not(HasSubstr(">sticks<")));
+  log.rows[10].decision->state = CommandState::Sticks;
+  EXPECT_THAT(joined(servo_sections(log, view())), HasSubstr(">sticks<"));
+}
+
 TEST(RunFigures, FlightNeedsTheTruthColumns) {
   EXPECT_EQ(truth_columns(), test::made_up_flight().extra_columns);
   const std::string flown = joined(simulate_sections(test::made_up_flight(), view()));

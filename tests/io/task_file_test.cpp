@@ -48,6 +48,7 @@ TEST_F(TaskFile, TakesFromTheDescriptionWhatItDoesNotSay) {
   const Experiment e = read(kDescribed);
   EXPECT_EQ(e.source, "sequence:seq/s.yaml");
   EXPECT_EQ(e.sink, "none");
+  EXPECT_EQ(e.ground_link, "");
   EXPECT_EQ(e.task.camera.parameters().px, 600);
   EXPECT_EQ(e.camera_file, folder_.path() / "c.yaml");
   EXPECT_EQ(e.task.target_width_m, 0.3);
@@ -65,10 +66,13 @@ TEST_F(TaskFile, PutsItsOwnWordBeforeTheDescriptions) {
                 "image_width: 640\nimage_height: 480\n"
                 "camera_matrix: {rows: 3, cols: 3, data: [700, 0, 320, 0, 610, 240, 0, 0, 1]}\n");
   const Experiment e = read(
-      "source: sequence:seq/s.yaml\nsink: udp://127.0.0.1:14550\nrate_hz: 25\nfirst_frame: 3\n"
+      "source: sequence:seq/s.yaml\nsink: udp://127.0.0.1:14550\n"
+      "ground_link: udp://127.0.0.1:14601\nground_link_key: hand.key\nrate_hz: 25\nfirst_frame: 3\n"
       "last_frame: 4\ncamera: {file: d.yaml, " +
       kMount + "}\ntarget: {width_m: 1, height_m: 2, template_px: [5, 6, 50, 60]}\n" + kGoal);
   EXPECT_EQ(e.sink, "udp://127.0.0.1:14550");
+  EXPECT_EQ(e.ground_link, "udp://127.0.0.1:14601");
+  EXPECT_EQ(e.ground_link_key, folder_.path() / "hand.key");
   EXPECT_EQ(e.task.camera.parameters().px, 700);
   EXPECT_EQ(e.task.target_width_m, 1);
   EXPECT_EQ(e.task.target_height_m, 2);
@@ -147,6 +151,8 @@ TEST_F(TaskFile, NamesTheLineOfAMistake) {
   EXPECT_THAT(error_of("source: simulation\nsink: tcp://x\n" + kOwn),
               HasSubstr("t.yaml:2: sink: is 'tcp://x'; give autopilot:udp://HOST:PORT, "
                         "udp://HOST:PORT or none"));
+  EXPECT_THAT(error_of("source: simulation\nground_link: tcp://x\n" + kOwn),
+              HasSubstr("t.yaml:2: ground_link: is 'tcp://x'; give udp://HOST:PORT"));
   EXPECT_THAT(error_of(kDescribed + "rate_hz: 0\n"), HasSubstr("rate_hz: must be positive"));
   EXPECT_THAT(error_of(kDescribed + "last_frame: 1\n"), HasSubstr("t.yaml:5: last_frame: "));
   EXPECT_THAT(error_of(kDescribed + "servos: {}\n"),

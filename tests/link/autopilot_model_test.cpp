@@ -254,6 +254,29 @@ TEST_P(AutopilotModelOfBoth, TellsOfItselfAsOftenAsItIsAsked) {
   EXPECT_GE(count(mavlink::ExtendedSysState{}), 4);
 }
 
+TEST_P(AutopilotModelOfBoth, TheBatteryPaysForTimeInTheAirOnly) {
+  AutopilotModelOptions options = options_for(GetParam());
+  options.battery.endurance_s = 20;
+  for (const bool in_air : {true, false}) {
+    options.starts_armed = in_air;
+    Flight flight(options);
+    flight.fly(4.5);
+    std::vector<Battery> heard;
+    for (const auto& message : flight.told) {
+      if (const auto* s = std::get_if<mavlink::SysStatus>(&message)) {
+        heard.push_back(battery_of(*s));
+      }
+    }
+    ASSERT_EQ(heard.size(), 5u) << "once a second";
+    // Told at 0.01 s, 1.01 s, ... of which the first step has no time before it.
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+      EXPECT_NEAR(*heard[i].charge, in_air ? 1 - double(i) / 20 : 1, 0.006) << i;
+      EXPECT_NEAR(*heard[i].current_a, in_air ? options.battery.flying_a : options.battery.idle_a,
+                  1e-9);
+    }
+  }
+}
+
 TEST_P(AutopilotModelOfBoth, AnswersTheClockByItsOwn) {
   AutopilotModelOptions options = options_for(GetParam());
   options.boot_s = -1000;
@@ -290,6 +313,9 @@ TEST(AutopilotModel, SurvivesAnyBytes) {
 }
 
 TEST(AutopilotModelOptions, NameWhatIsOutOfRange) {
+  AutopilotModelOptions empty;
+  empty.battery.endurance_s = 0;
+  EXPECT_THROW(AutopilotModel{empty}, std::invalid_argument);
   for (const auto member :
        {&AutopilotModelOptions::climb_m_s, &AutopilotModelOptions::sink_m_s,
         &AutopilotModelOptions::px4_takeoff_m, &AutopilotModelOptions::telemetry_hz}) {

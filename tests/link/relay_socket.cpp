@@ -103,10 +103,6 @@ ReadResult read_some(const Descriptor& socket) {
   return result;
 }
 
-double monotonic_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void wait_ready(std::vector<pollfd>& sockets, double until_s) {
   const double wait_s = std::clamp(until_s - monotonic_s(), 0.0, 1.0);
   const double whole_s = std::floor(wait_s);

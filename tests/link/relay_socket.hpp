@@ -64,7 +64,9 @@ struct ReadResult {
 ReadResult read_some(const Descriptor& socket);
 
 /// Seconds of the monotonic clock.
-double monotonic_s();
+inline double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Waits until one of them is ready, at most until the moment (at most a second).
 void wait_ready(std::vector<pollfd>& sockets, double until_s);

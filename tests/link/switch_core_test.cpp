@@ -249,6 +249,29 @@ TEST(SwitchCore, ObeysTheGroundsControlMessagesAndAnswers) {
   EXPECT_NEAR(desk.speed(), 0.5, 1e-6);
 }
 
+TEST(SwitchCore, TellsWhoCommands) {
+  Desk desk;
+  desk.fly_for(kEye, 0.5, 2.5);
+  const auto told = [&] {
+    std::optional<ControlWord> word;
+    for (const mavlink::Packet& packet : desk.told[kGround].packets) {
+      const auto* beat = std::get_if<mavlink::Heartbeat>(&packet.message);
+      const bool is_switchs = packet.envelope.component_id == 192;
+      if (beat != nullptr && is_switchs) word = control_word(beat->custom_mode);
+    }
+    return word;
+  };
+  ASSERT_TRUE(told());
+  EXPECT_EQ(told()->state, ControlState::Owned);
+  EXPECT_EQ(told()->owner, LinkRole::Vision);
+  desk.command(kGround, SwitchControl::TakeOver);
+  const auto answer = control_word(
+      std::uint32_t(desk.told[kGround].all<mavlink::CommandAck>().back().result_param2));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->state, ControlState::TakenOver);
+  EXPECT_FALSE(answer->owner) << "nobody yet: a zero comes first";
+}
+
 TEST(SwitchCore, AnswersWhatItDoesNotKnow) {
   Desk desk;
   desk.command(kGround, SwitchControl(31015));

@@ -200,6 +200,18 @@ TEST(Telemetry, KnowsModeArmingAndWhereTheGroundIs) {
   EXPECT_STREQ(name(Landed::OnGround), "on the ground");
 }
 
+TEST(Telemetry, KnowsTheBatteryOnceItWasTold) {
+  Telemetry telemetry;
+  telemetry.take(mavlink::Heartbeat{}, 1, std::nullopt);
+  EXPECT_FALSE(telemetry.state()->battery);
+  telemetry.take(sys_status({11.8, std::nullopt, 0.4}), 2, std::nullopt);
+  ASSERT_TRUE(telemetry.state()->battery);
+  EXPECT_NEAR(telemetry.state()->battery->charge.value(), 0.4, 1e-9);
+  EXPECT_FALSE(telemetry.state()->battery->current_a) << "not known stays not known";
+  telemetry.take(mavlink::Heartbeat{}, 3, std::nullopt);
+  EXPECT_TRUE(telemetry.state()->battery) << "a heartbeat does not forget it";
+}
+
 TEST(TelemetryOptions, NameWhatIsOutOfRange) {
   for (const double bad : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
     TelemetryOptions options;

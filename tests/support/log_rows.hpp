@@ -60,8 +60,8 @@ inline LogRow any_row(Random& random, int extra_columns) {
     row.servo->twist = {{number(), number(), number()}, {number(), number(), number()}};
   }
   if (is_there())
-    row.decision = LoggedDecision{CommandState(random.integer(0, 3)), any_command(random),
-                                  any_command(random)};
+    row.decision = LoggedDecision{kCommandStates[std::size_t(random.integer(0, 4))],
+                                  any_command(random), any_command(random)};
   for (int i = 0; i < extra_columns; ++i)
     row.extra.push_back(is_there() ? number() : std::numeric_limits<double>::quiet_NaN());
   return row;

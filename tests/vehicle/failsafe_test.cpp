@@ -120,6 +120,10 @@ TEST(CommandState, HasAName) {
   EXPECT_STREQ(name(CommandState::Hold), "hold");
   EXPECT_STREQ(name(CommandState::Decay), "decay");
   EXPECT_STREQ(name(CommandState::Hover), "hover");
+  EXPECT_STREQ(name(CommandState::Sticks), "sticks");
+  for (std::size_t i = 0; i < kCommandStates.size(); ++i) {
+    EXPECT_EQ(kCommandStates[i], CommandState(i));
+  }
 }
 
 }  // namespace

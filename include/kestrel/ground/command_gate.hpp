@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "kestrel/vehicle/velocity_command.hpp"
 
@@ -16,8 +17,10 @@ struct GateCounts {
 /// hover at once, from whatever thread, and does not wait for the next frame. Starts closed.
 class CommandGate final : public CommandSink {
  public:
-  /// The sink must outlive the gate, and be used through it only.
-  explicit CommandGate(CommandSink& behind) : behind_(behind) {}
+  /// The sink must outlive the gate, and be used through it only; so must by_hand, the way of an
+  /// operator's own velocities. Null: they go the same way as the law's.
+  explicit CommandGate(CommandSink& behind, CommandSink* by_hand = nullptr)
+      : behind_(behind), by_hand_(by_hand) {}
 
   void send(const VelocityCommand& command, double stamp_s) noexcept override;
   long failures() const override;
@@ -25,6 +28,10 @@ class CommandGate final : public CommandSink {
   /// Zero velocity now, for the frame sent last, and from now on.
   void close() noexcept;
   void open() noexcept;
+
+  /// The command that is sent next is a hand's: it goes by_hand, and `law` goes behind in its
+  /// place. Nothing without a way of its own, and forgotten when the gate is closed before.
+  void fork(const VelocityCommand& law) noexcept;
   bool is_open() const;
   GateCounts counts() const;
 
@@ -32,10 +39,12 @@ class CommandGate final : public CommandSink {
   void pass(const VelocityCommand& command) noexcept;
 
   CommandSink& behind_;
+  CommandSink* by_hand_;
   mutable std::mutex mutex_;
   bool is_open_ = false;
   bool has_sent_ = false;
-  double stamp_s_ = 0;  // of the last command
+  double stamp_s_ = 0;                  // of the last command
+  std::optional<VelocityCommand> law_;  // beside the hand's that comes next
   GateCounts counts_;
 };
 

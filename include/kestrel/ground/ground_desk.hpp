@@ -13,6 +13,7 @@
 #include "kestrel/ground/ground_view.hpp"
 #include "kestrel/ground/hand_flight.hpp"
 #include "kestrel/ground/template_verdict.hpp"
+#include "kestrel/link/operator_link.hpp"
 #include "kestrel/loop/task.hpp"
 #include "kestrel/vision/tracker.hpp"
 
@@ -39,6 +40,13 @@ struct GroundEvent {
   std::string words;
 };
 
+/// By which way an operator's own velocities go, and what is at its other end.
+struct HandWay {
+  std::string words;     // for a human
+  bool is_own = false;   // not the law's
+  bool stopped = false;  // the switch is under its emergency stop
+};
+
 /// How things stand at the desk.
 struct DeskStatus {
   FlightMode mode = FlightMode::Hover;
@@ -53,6 +61,7 @@ struct DeskStatus {
   GateCounts sent;
   long failures = 0;                // of the sink: commands that did not leave
   std::vector<GroundEvent> events;  // the last kEvents, oldest first
+  HandWay way;
 };
 
 /// Where the commands of all viewers meet the chain: what is allowed is done, and all is answered.
@@ -62,6 +71,11 @@ struct DeskStatus {
 /// The chain starts in hover. Abort and hover are anybody's at any time; all else is the
 /// commander's, one at a time. A commander who falls silent loses the command; the chain goes on.
 /// Sticks that are not heard of, or whose hand loses the command, are let go: hover.
+///
+/// With a link of the operator's own to a switch, a hand takes over there, its velocities go by
+/// that link and the law's by its own; who lets go releases, and hovers there until Start. Hover is
+/// a zero on both, Abort the switch's emergency stop besides, Reset its end. A hand that the switch
+/// does not hear, or does not grant, flies nothing: hover.
 class GroundDesk {
  public:
   static constexpr std::size_t kEvents = 50;
@@ -70,8 +84,10 @@ class GroundDesk {
 
   /// run: see CommandPost. The task's gain and velocities are the most that can be asked for, and
   /// its laws those that have an answer at its goal. The gate is opened by start and by taking the
-  /// sticks, closed by abort and hover, at once; it must outlive the desk.
-  GroundDesk(const Task& task, CommandGate& gate, const std::string& run);
+  /// sticks, closed by abort and hover, at once; it must outlive the desk, and
+  /// so must by_hand, which is the gate's as well. Null: a hand's velocities go the law's way.
+  GroundDesk(const Task& task, CommandGate& gate, const std::string& run,
+             OperatorLink* by_hand = nullptr);
 
   /// Answers a command and does what it asks for, now or with the next frame.
   Reply handle(const GroundCommand& command, double now_s);
@@ -82,7 +98,7 @@ class GroundDesk {
 
   /// The decision of a frame as it may be flown: the law's, a hand's, or none. before: the chain's
   /// state at that frame.
-  Decision steered(Decision decision, const DecisionState& before, double now_s) const;
+  Decision steered(Decision decision, const DecisionState& before, double now_s);
 
   void show(std::shared_ptr<const GroundView> view);
 
@@ -105,6 +121,11 @@ class GroundDesk {
   Reply done_for_commander(const GroundCommand& command, double now_s, Lock& lock);
   Answer move_sticks(const VelocityCommand& wanted, double now_s);
   void notice_silence(double now_s);
+  std::string refused_by_switch(Ask ask) const;
+  bool resets_switch_only(Ask ask) const;
+  void tell_switch(Ask ask, FlightMode before);
+  void hear_switch();
+  HandWay way() const;
   Answer set_law(const std::string& word);
   Answer set_limits(const VelocityCommand& speed);
   Answer set_goal(const VehiclePlace& place);
@@ -123,6 +144,8 @@ class GroundDesk {
   const VelocityCommand most_speed_;
   const std::vector<std::string> laws_;
   CommandGate& gate_;
+  OperatorLink* by_hand_;
+  bool law_flew_ = false;  // when the hand took over: then it goes on beside it
   CommandPost post_;
   FlightMode mode_ = FlightMode::Hover;
   HeldSticks sticks_;

@@ -23,6 +23,9 @@ struct GroundOptions {
   /// Of the commands, a port of their own: a browser holds six connections to a port, and with six
   /// streams open no command would get through. 0: the page's next, or any free one.
   std::uint16_t command_port = 0;
+  /// Of the emergency stop and nothing else, so that no flood of commands stands in its way. 0: the
+  /// page's next but one, or any free one.
+  std::uint16_t stop_port = 0;
   int max_streams = 6;         // more are answered 503
   double commands_per_s = 20;  // of all pages together, stops apart; more are answered 429
   int jpeg_quality = 75;       // 1 to 100
@@ -58,8 +61,10 @@ std::vector<std::pair<std::string, long>> named(const GroundRefusals& refusals);
 
 /// Something that is known of the vehicle or of the way to it, for a human.
 struct Fact {
-  std::string name;   // "battery"
+  enum class Tone { Plain, Warning };
+  std::string name;   // "Battery"
   std::string words;  // "12.4 V"
+  Tone tone = Tone::Plain;
 };
 
 /// What is known now; called by several threads, some ten times a second.
@@ -78,15 +83,17 @@ class GroundStation {
 
   /// Listens when this returns. Throws std::runtime_error when a port is taken, naming it, and as
   /// GroundOptions::check. The gate must outlive the station, and what facts looks at; null:
-  /// nothing is known.
+  /// nothing is known. by_hand: see GroundDesk; the station looks after it.
   GroundStation(const GroundOptions& options, const AccessToken& token, const Task& task,
-                CommandGate& gate, Clock now_s, Facts facts = nullptr);
+                CommandGate& gate, Clock now_s, Facts facts = nullptr,
+                OperatorLink* by_hand = nullptr);
   ~GroundStation();
   GroundStation(const GroundStation&) = delete;
   GroundStation& operator=(const GroundStation&) = delete;
 
   std::uint16_t port() const;
   std::uint16_t command_port() const;
+  std::uint16_t stop_port() const;
   /// The page's address with the token, for its owner: "http://127.0.0.1:8080/#token=..."; https
   /// with TLS. What is
   /// behind # a browser sends to nobody.
@@ -96,7 +103,7 @@ class GroundStation {
   GroundRefusals refusals() const;
 
   /// See GroundDesk: what of a frame's decision may be flown now.
-  Decision steered(Decision decision, const DecisionState& before) const;
+  Decision steered(Decision decision, const DecisionState& before);
 
   /// Hands a frame to the viewers: a swap of pointers.
   void show(GroundView view);

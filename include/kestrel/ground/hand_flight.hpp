@@ -39,7 +39,7 @@ class HeldSticks {
 /// changed from the command of the frame before (in `before`) no faster than they allow, over
 /// HeldSticks::kFresh_s at most; zeros where no time since then is known. What the law wanted is
 /// kept, to be looked at; of the law nothing is remembered that could be resumed. Its state is
-/// Hover: it rests on nothing that was seen.
+/// Sticks; Hover where no time is known.
 Decision by_hand(Decision decision, const VelocityCommand& wanted, const DecisionState& before,
                  const CommandLimits& limits);
 

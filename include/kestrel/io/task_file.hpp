@@ -30,6 +30,9 @@ struct Experiment {
   std::optional<std::filesystem::path> camera_file;  // absent: intrinsics given in the task
   std::optional<std::filesystem::path> truth;        // of a described sequence
   LiveOptions live;                                  // how a live source is opened
+  /// The operator's own link to a switch, "udp://host:port", and the file of its key; empty: none.
+  std::string ground_link{};
+  std::filesystem::path ground_link_key{};
 };
 
 /// The experiment of a task file's root section. A described sequence (source: sequence:FILE) gives

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kestrel/link/autopilot_profile.hpp"
+#include "kestrel/link/battery.hpp"
 #include "kestrel/link/clock_sync.hpp"
 #include "kestrel/link/frame.hpp"
 #include "kestrel/link/kinematic_vehicle.hpp"
@@ -25,6 +26,7 @@ struct AutopilotModelOptions {
   double sink_m_s = 0.5;       // landing
   double px4_takeoff_m = 2.5;  // MIS_TAKEOFF_ALT
   double telemetry_hz = 4;     // of attitude and position, until somebody asks for more
+  BatteryOptions battery;      // told once a second
 
   /// Throws std::invalid_argument that names the first option out of range.
   void check() const;
@@ -98,6 +100,7 @@ class AutopilotModel {
   std::uint8_t take_off(double height_m, const VehicleTruth& truth, double now_s);
   bool accepts(const mavlink::SetPositionTarget& setpoint, double now_s);
   void time_out(double now_s);
+  void drain(const VehicleTruth& truth, double now_s);
   void climb_or_sink(const VehicleTruth& truth, double now_s);
   bool is_due(std::uint32_t message_id, double now_s);
   mavlink::Message report(std::uint32_t message_id, const VehicleTruth& truth, double now_s) const;
@@ -111,6 +114,8 @@ class AutopilotModel {
   bool armed_;
   bool alive_ = true;
   MotionReference reference_;
+  double flown_s_ = 0;                // armed and off the ground
+  std::optional<double> ticked_s_;    // last
   std::optional<double> setpoint_s_;  // arrival of the last that could be obeyed
   std::optional<double> climb_to_m_;  // down, while it takes off
   std::map<std::uint32_t, double> interval_s_;

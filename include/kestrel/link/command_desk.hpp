@@ -10,7 +10,8 @@
 namespace kestrel {
 
 /// Control messages: COMMAND_LONG from a ground link to the switch's own system and component,
-/// answered by COMMAND_ACK. MAV_CMD_USER_1 to MAV_CMD_USER_5 of MAVLink.
+/// answered by COMMAND_ACK with the ControlWord in result_param2. MAV_CMD_USER_1 to MAV_CMD_USER_5
+/// of MAVLink.
 enum class SwitchControl : std::uint16_t {
   TakeOver = 31010,       // only ground sources may have control from now on
   Lock = 31011,           // the present owner keeps control

@@ -10,6 +10,7 @@
 #include "kestrel/link/address.hpp"
 #include "kestrel/link/bytes.hpp"
 #include "kestrel/link/command_desk.hpp"
+#include "kestrel/link/control_word.hpp"
 #include "kestrel/link/frame.hpp"
 #include "kestrel/link/outbox.hpp"
 #include "kestrel/link/router.hpp"
@@ -32,7 +33,7 @@ struct SwitchTime {
 /// goes out. Nothing in it blocks, throws in flight, reads a clock or grows without bound.
 ///
 /// Flight control hears three things: the setpoints of the CommandDesk, what FlightRules lets pass,
-/// and the heartbeats of the switch, whose custom_mode is the ControlState.
+/// and the heartbeats of the switch, whose custom_mode is the ControlWord.
 class SwitchCore {
  public:
   /// Throws std::invalid_argument as SwitchOptions::check.
@@ -70,6 +71,7 @@ class SwitchCore {
   };
 
   const SwitchLink& link_of(const Peer& peer) const { return options_.links[peer.status.link]; }
+  ControlWord control() const;
   Claimant claimant(const Peer& peer, const mavlink::Envelope& envelope) const;
   Addressee addressee(const Peer& peer) const;
 

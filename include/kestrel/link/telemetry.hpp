@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "kestrel/geometry/attitude.hpp"
+#include "kestrel/link/battery.hpp"
 #include "kestrel/link/clock_sync.hpp"
 #include "kestrel/link/message.hpp"
 
@@ -25,6 +26,7 @@ struct VehicleState {
   double heard_s = 0;  // our clock, of the heartbeat
   Landed landed = Landed::Unknown;
   std::optional<double> down_m;  // of LOCAL_POSITION_NED: minus the height over the local origin
+  std::optional<Battery> battery{};  // of SYS_STATUS
 };
 
 /// Where the vehicle is and how it moves.
@@ -58,7 +60,8 @@ class Telemetry {
   /// Throws as TelemetryOptions::check.
   explicit Telemetry(const TelemetryOptions& options = {});
 
-  /// Takes ATTITUDE, LOCAL_POSITION_NED, HEARTBEAT and EXTENDED_SYS_STATE; others are passed over.
+  /// Takes ATTITUDE, LOCAL_POSITION_NED, HEARTBEAT, EXTENDED_SYS_STATE and SYS_STATUS; others are
+  /// passed over.
   /// A sample is dated by its own time (time_boot_ms, which turns over after 49.7 days) where the
   /// vehicle's clock is known, else by its arrival: then it is older than it seems by the delay of
   /// the line. A time more than a second away from the arrival is not believed.
@@ -106,6 +109,7 @@ class Telemetry {
   std::optional<VehicleState> state_;
   Landed landed_ = Landed::Unknown;
   std::optional<double> down_m_;
+  std::optional<Battery> battery_;
   TelemetryCounts counts_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "kestrel/vehicle/velocity_command.hpp"
 
 namespace kestrel {
@@ -17,11 +19,17 @@ struct LossOptions {
 
 /// What the command rests on.
 enum class CommandState {
-  Servo,  // the target was seen in this frame and the law has an answer
-  Hold,   // not seen: the last command
-  Decay,  // not seen: the last command, fading
-  Hover,  // not seen for long, never seen, or something was not finite: zeros
+  Servo,   // the target was seen in this frame and the law has an answer
+  Hold,    // not seen: the last command
+  Decay,   // not seen: the last command, fading
+  Hover,   // not seen for long, never seen, or something was not finite: zeros
+  Sticks,  // an operator's hand, whatever was seen
 };
+
+/// All there are, in this order.
+inline constexpr std::array<CommandState, 5> kCommandStates{
+    CommandState::Servo, CommandState::Hold, CommandState::Decay, CommandState::Hover,
+    CommandState::Sticks};
 
 /// A command and what it rests on.
 struct FailsafeCommand {
@@ -35,7 +43,7 @@ struct FailsafeCommand {
 FailsafeCommand after_loss(const VelocityCommand& last, double unseen_s,
                            const LossOptions& options);
 
-/// "servo", "hold", "decay", "hover".
+/// "servo", "hold", "decay", "hover", "sticks".
 const char* name(CommandState state);
 
 }  // namespace kestrel

@@ -1,13 +1,14 @@
 // Commands to the program, at a port of their own: streams may hold all connections of the page's.
 const Commands = (() => {
   const port = document.querySelector('meta[name="command-port"]').content;
-  const address = `${location.protocol}//${location.hostname}:${port}/command`;
+  const stopPort = document.querySelector('meta[name="stop-port"]').content;
+  const place = (at, path) => `${location.protocol}//${location.hostname}:${at}/${path}`;
   let token = "", client = "", number = 0, took_ms = null;
 
-  async function post(command) {
+  async function post(command, to = place(port, "command")) {
     const asked = performance.now();
     // A stop is sent to its end also when the page is closed meanwhile.
-    const answer = await fetch(address, { keepalive: command.do === "hover" || command.do === "abort",
+    const answer = await fetch(to, { keepalive: command.do === "hover" || command.do === "abort",
       method: "POST", cache: "no-store", signal: AbortSignal.timeout(5000),
       headers: { Authorization: "Bearer " + token, "Content-Type": "application/json" },
       body: JSON.stringify(command),
@@ -22,9 +23,15 @@ const Commands = (() => {
     client = reply.client;
     number = 0;
   }
+  // An abort goes both ways, and the first answer counts: the stop has a port of its own.
+  function abort() {
+    const ways = [post({ do: "abort" }, place(stopPort, "stop")), post({ do: "abort" })];
+    return Promise.any(ways).catch(error => { throw error.errors[0]; });
+  }
   // A command of this page, numbered so that none counts twice.
   async function give(word, more = {}) {
-    if (word === "abort" || word === "hover") return post({ do: word });
+    if (word === "abort") return abort();
+    if (word === "hover") return post({ do: word });
     if (!client) await join();
     let reply = await post({ do: word, client, number: ++number, ...more });
     if (reply.status === 410) {  // the program was started anew, or has forgotten this page

@@ -24,7 +24,12 @@ function showDesk(next) {
   at("release").hidden = !mine;
   at("release").textContent = desk.asker ? "Give command to the page that asks" : "Give up command";
   at("start").disabled = !mine || desk.mode !== "hover";
-  at("reset").hidden = desk.mode !== "aborted";
+  const stopped = desk.way && desk.way.stopped;
+  at("reset").hidden = desk.mode !== "aborted" && !stopped;
+  at("reset").textContent = desk.mode === "aborted" ? "Reset after abort" : "Reset the switch's emergency stop";
+  const way = desk.way && !desk.view_only ? desk.way.words : "";
+  if (at("way").textContent !== way) at("way").textContent = way;
+  at("way").className = stopped ? "answer bad" : "soft";
   at("reset").disabled = !mine;
   for (const id of ["hold_view", "gain", "freeze"]) at(id).disabled = !mine;
   at("gain_shown").textContent = `${desk.gain_per_s.toPrecision(2)} of ${desk.most_gain_per_s.toPrecision(2)} 1/s`;
@@ -74,7 +79,7 @@ function showNumbers(view, words) {
   const rows = {
     "Frame": view.frame + ", " + view.stamp_s.toFixed(2) + " s",
     "Distance": view.distance_m === null ? "–" : view.distance_m.toFixed(2) + " m",
-    "Command rests on": desk.mode === "sticks" ? "a hand" : view.state || "–",
+    "Command rests on": view.state === "sticks" ? "a hand" : view.state || "–",
     "Sent": v(view.sent) + "  m/s, rad/s",
     "The law wants": v(view.wanted),
     "Most allowed": v(desk.speed),

@@ -124,10 +124,11 @@ const Views = (() => {
       ["Page to program", Commands.took_ms() === null ? "–" : Commands.took_ms().toFixed(0) + " ms"], ...desk.facts];
     const list = at("link");
     while (list.children.length > 2 * rows.length) list.lastChild.remove();
-    rows.forEach(([name, value], i) => {
+    rows.forEach(([name, value, tone], i) => {
       if (!list.children[2 * i]) list.append(document.createElement("dt"), document.createElement("dd"));
       if (list.children[2 * i].textContent !== name) list.children[2 * i].textContent = name;
       if (list.children[2 * i + 1].textContent !== value) list.children[2 * i + 1].textContent = value;
+      list.children[2 * i + 1].className = tone || "";
     });
   }
 

@@ -34,7 +34,7 @@ std::uint8_t AutopilotModel::obey(const mavlink::CommandLong& c, const VehicleTr
       return kAccepted;
     case kCommandInterval: {
       const auto id = std::uint32_t(c.param1);
-      if (id != 0 && id != 30 && id != 32 && id != 245) return kFailed;
+      if (id != 0 && id != 1 && id != 30 && id != 32 && id != 245) return kFailed;
       if (!(c.param2 > 0)) return kDenied;
       interval_s_[id] = double(c.param2) * 1e-6;
       return kAccepted;
@@ -92,6 +92,13 @@ void AutopilotModel::climb_or_sink(const VehicleTruth& truth, double now_s) {
   }
 }
 
+/// The battery pays for time in the air, whatever is flown.
+void AutopilotModel::drain(const VehicleTruth& truth, double now_s) {
+  const bool flies = armed_ && landed(truth) != Landed::OnGround;
+  if (flies && ticked_s_) flown_s_ += now_s - *ticked_s_;
+  ticked_s_ = now_s;
+}
+
 Landed AutopilotModel::landed(const VehicleTruth& truth) const {
   if (climb_to_m_) return Landed::TakingOff;
   if (truth.position_ned_m.z() >= 0) return Landed::OnGround;
@@ -114,6 +121,11 @@ mavlink::Message AutopilotModel::report(std::uint32_t message_id, const VehicleT
   const Eigen::Vector3f w = truth.body_rates_rad_s.cast<float>();
   const Attitude& a = truth.attitude;
   switch (message_id) {
+    case 1: {
+      const bool flies = armed_ && landed(truth) != Landed::OnGround;
+      const BatteryOptions& battery = options_.battery;
+      return sys_status(drained(battery, flown_s_, flies ? battery.flying_a : battery.idle_a));
+    }
     case 30:
       return mavlink::AttitudeReport{boot_ms, float(a.roll), float(a.pitch), float(a.yaw),
                                      w.x(),   w.y(),         w.z()};
