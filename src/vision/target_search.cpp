@@ -14,14 +14,16 @@
 namespace kestrel {
 namespace {
 
-/// The pairs of keypoints that led to a place.
-std::vector<PixelPair> pairs_of(const Detection& seen, int hypothesis) {
-  std::vector<PixelPair> pairs;
-  for (const int i : seen.hypotheses[std::size_t(hypothesis)].inliers) {
-    const AffinePair& pair = seen.pairs[std::size_t(i)];
-    pairs.push_back({pair.in_template, pair.in_image});
+/// Hands on the pairs of keypoints: those that led to the place, by their ascending indices, and
+/// the others.
+void part(const Detection& seen, const std::vector<int>& inliers, Sighting& to) {
+  auto next = inliers.begin();
+  for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
+    const bool leads_there = next != inliers.end() && *next == int(i);
+    if (leads_there) ++next;
+    (leads_there ? to.inliers : to.others)
+        .push_back({seen.pairs[i].in_template, seen.pairs[i].in_image});
   }
-  return pairs;
 }
 
 }  // namespace
@@ -59,6 +61,8 @@ struct TargetSearch::Parts {
   void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
   Sighting detect(const Frame& frame, const PixelBox& window,
                   const std::optional<Expectation>& expected);
+  std::optional<int> judge(const Frame& frame, const Detection& seen,
+                           const std::optional<Expectation>& expected, Sighting& result);
 };
 
 Sighting TargetSearch::Parts::follow(const Frame& frame, const Homography& last,
@@ -159,7 +163,17 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   result.miss = seen.keypoints < 4                                ? Miss::FewKeypoints
                 : result.matches < options.detect.fit.min_inliers ? Miss::FewMatches
                                                                   : Miss::NoConsensus;
-  if (seen.hypotheses.empty()) return result;
+  const auto hypothesis = judge(frame, seen, expected, result);
+  part(seen, hypothesis ? seen.hypotheses[std::size_t(*hypothesis)].inliers : std::vector<int>{},
+       result);
+  return result;
+}
+
+/// The pixels' verdict on what the keypoints lead to: the hypothesis that is accepted.
+std::optional<int> TargetSearch::Parts::judge(const Frame& frame, const Detection& seen,
+                                              const std::optional<Expectation>& expected,
+                                              Sighting& result) {
+  if (seen.hypotheses.empty()) return std::nullopt;
   std::vector<Place> places;
   for (int i = 0; i < int(seen.hypotheses.size()); ++i) {
     const Homography& start = seen.hypotheses[std::size_t(i)].image_from_template;
@@ -169,13 +183,13 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return is_better(a.at, b.at); });
   result.miss = Miss::NotAlike;
-  if (places.empty()) return result;
+  if (places.empty()) return std::nullopt;
   const Choice chosen = choice(places, expected, verdict, model);
   result.miss = chosen.miss;
   result.at = places[chosen.place].at;
   settle(frame, expected, result);
-  if (result.is_accepted()) result.inliers = pairs_of(seen, places[chosen.place].hypothesis);
-  return result;
+  if (!result.is_accepted()) return std::nullopt;
+  return places[chosen.place].hypothesis;
 }
 
 TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)
