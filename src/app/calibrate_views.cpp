@@ -85,7 +85,7 @@ class GuideView {
     const cv::Mat picture = guide_picture(gray, offered, views);
     if (!window_)
       window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel: calibrate");
-    return window_->show(picture);
+    return window_->show(picture) != Click::Right;
   }
 
  private:

@@ -47,25 +47,27 @@ class Fold {
     std::optional<Eigen::Vector3d> velocity_m_s;
     if (chain_.velocity) velocity_m_s = chain_.velocity(frame_.stamp_s);
     Step now = step(chain_.tracker, frame_, state_, task_, velocity_m_s);
-    if (chain_.steered) steer(now);
+    steer(now);
     chain_.sink.send(now.decision.command, command_stamp_s(now.decision));
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
     take_time(now);
     if (chain_.ground && has_image(frame_)) {
-      chain_.ground->show(ground_view(frame_, now, chain_.tracker.model(), task_, chain_ms));
+      GroundView view = ground_view(frame_, now, chain_.tracker.model(), task_, chain_ms);
+      if (chain_.age_s) view.latency_ms = end_.latencies_s.back() * 1e3;
+      chain_.ground->show(std::move(view));
     }
     LogRow row = log_row(frame_, chain_.tracker.model(), now);
     const auto reason = watch_(frame_, now, row);
     drawn_.sent = FailsafeCommand{now.decision.command, now.decision.state};
     const auto draw = [&] { return picture_of(now); };
-    const bool is_open =
-        chain_.recorder.record(row, draw, badness(frame_, now), {source_ms_, chain_ms, 0});
+    const Click click = chain_.recorder.record(row, now.track, draw, badness(frame_, now),
+                                               {source_ms_, chain_ms, 0});
     count(now);
     progress_.step(end_.frames, name(now.decision.state));
     state_ = now.next;
     end_.last = std::move(now);
     if (reason) end_.reason = *reason;
-    if (!is_open) end_.reason = "the window was closed";
+    obey(click);
     if (interrupted()) end_.reason = "interrupted";
     return end_.reason.empty();
   }
@@ -124,8 +126,30 @@ class Fold {
 
   /// What the operator makes of the decision.
   void steer(Step& now) const {
-    now.decision = chain_.steered(std::move(now.decision), state_.decision);
+    if (!chain_.steered && flies_) return;
+    if (chain_.steered) {
+      now.decision = chain_.steered(std::move(now.decision), state_.decision);
+    }
+    if (!flies_) now.decision = stopped(std::move(now.decision));
     now.next.decision = now.decision.next;
+  }
+
+  /// What the mouse in the window asks for.
+  void obey(Click click) {
+    if (chain_.start == Start::Paused && end_.frames == 1 && click == Click::None) {
+      click = chain_.recorder.wait_for_click();
+      pacer_ = Pacer(chain_.pace);
+    }
+    if (click == Click::Right) end_.reason = "the window was closed";
+    if (click != Click::Left) return;
+    if (chain_.ground) {
+      GroundCommand hover;
+      hover.ask = Ask::Hover;
+      chain_.ground->desk().handle(hover, monotonic_s());
+    } else if (chain_.start != Start::AtOnce) {
+      flies_ = !flies_;
+      fmt::print(stderr, "{} at {:.2f} s\n", flies_ ? "servoing" : "hover", frame_.stamp_s);
+    }
   }
 
   cv::Mat picture_of(const Step& now) const {
@@ -170,6 +194,7 @@ class Fold {
   Progress progress_;
   OverlayOptions drawn_;
   Task task_;  // as the operator has changed it
+  bool flies_ = chain_.start == Start::AtOnce;
   LoopState state_;
   ChainEnd end_;
   double source_ms_ = 0;

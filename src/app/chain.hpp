@@ -14,6 +14,13 @@
 
 namespace kestrel::app {
 
+/// When the law's commands go out where no ground station says so.
+enum class Start {
+  AtOnce,
+  ByClick,  // hover until the left button is clicked in the window, and after each second click
+  Paused,   // the same, and the first frame waits for it: the source's time is ours
+};
+
 /// Everything one run of the chain needs.
 struct Chain {
   FrameSource& source;
@@ -32,6 +39,8 @@ struct Chain {
   GroundStation* ground = nullptr;
   /// What of a frame's decision may be flown; before: the state at that frame. Null: all of it.
   std::function<Decision(Decision, const DecisionState& before)> steered{};
+  /// Of who has no ground station. With one, a left click in the window is its Hover.
+  Start start = Start::AtOnce;
   /// How old the frame with this stamp is, s: asked when its command has just been sent. Null:
   /// nobody knows, as of a recording.
   std::function<double(double stamp_s)> age_s{};

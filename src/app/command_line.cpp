@@ -18,8 +18,10 @@ void add_run_options(CLI::App& verb, RunArguments& run) {
   verb.add_option("--output,--save", run.output,
                   "Run folder to make (default: runs/<name>; a number is added when it exists)");
   verb.add_flag("!--no-video", run.video, "Do not write the annotated video");
-  verb.add_flag("--display,!--no-display", run.display,
-                "Show each frame in a window; a right click ends the run (default: no window)");
+  verb.add_flag(
+      "--display,!--no-display", run.display,
+      "Show each frame in a window, curves in another; the vehicle hovers until a left "
+      "click starts, the next one stops; a right click ends the run (default: no window)");
 }
 
 constexpr const char* kFlightPage =

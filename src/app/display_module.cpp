@@ -11,6 +11,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "display.hpp"
+
 #ifdef ENABLE_VISP_NAMESPACE
 using namespace VISP_NAMESPACE_NAME;
 #endif
@@ -45,18 +47,27 @@ ShownWindow* open_window(int width, int height, const std::string& title) {
   return window.release();
 }
 
-bool show(ShownWindow& window, const cv::Mat& bgr) {
+void show(ShownWindow& window, const cv::Mat& bgr, const std::string& hint) {
   cv::Mat fitted = bgr;
   const cv::Size size(int(window.image.getWidth()), int(window.image.getHeight()));
   if (bgr.size() != size) cv::resize(bgr, fitted, size);
   cv::Mat view(size, CV_8UC4, window.image.bitmap);
   cv::cvtColor(fitted, view, cv::COLOR_BGR2RGBA);
   vpDisplay::display(window.image);
+  // Twice, so that it is read on any picture.
+  if (!hint.empty()) {
+    vpDisplay::displayText(window.image, 21, 11, hint, vpColor::black);
+    vpDisplay::displayText(window.image, 20, 10, hint, vpColor::yellow);
+  }
   vpDisplay::flush(window.image);
+}
+
+Click click(ShownWindow& window) {
   vpImagePoint at;
   vpMouseButton::vpMouseButtonType button = vpMouseButton::none;
-  const bool clicked = vpDisplay::getClick(window.image, at, button, false);
-  return !(clicked && button == vpMouseButton::button3);
+  if (!vpDisplay::getClick(window.image, at, button, false)) return Click::None;
+  if (button == vpMouseButton::button1) return Click::Left;
+  return button == vpMouseButton::button3 ? Click::Right : Click::None;
 }
 
 void close_window(ShownWindow* window) { delete window; }
@@ -85,6 +96,6 @@ std::optional<PixelBox> draw_rectangle(const cv::Mat& gray, const std::string& t
 }  // namespace
 
 extern "C" const DisplayModule kKestrelModule;
-const DisplayModule kKestrelModule{draw_rectangle, open_window, show, close_window};
+const DisplayModule kKestrelModule{draw_rectangle, open_window, show, click, close_window};
 
 }  // namespace kestrel::app

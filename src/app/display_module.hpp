@@ -9,6 +9,8 @@
 
 namespace kestrel::app {
 
+enum class Click;
+
 /// A window of ViSP's; only the module knows what is in it.
 struct ShownWindow;
 
@@ -18,8 +20,10 @@ struct DisplayModule {
   std::optional<PixelBox> (*select_rectangle)(const cv::Mat& gray, const std::string& title);
   /// A new window; its owner closes it.
   ShownWindow* (*open)(int width, int height, const std::string& title);
-  /// As Window::show.
-  bool (*show)(ShownWindow& window, const cv::Mat& bgr);
+  /// Shows a picture with a hint over it; see Window::show.
+  void (*show)(ShownWindow& window, const cv::Mat& bgr, const std::string& hint);
+  /// As Window::click.
+  Click (*click)(ShownWindow& window);
   void (*close)(ShownWindow* window);
 };
 

@@ -131,7 +131,7 @@ void OnlookerGround::show(const Frame& frame, const LogRow& row, const Track& tr
   view.row = row;
   view.gray = frame.gray.clone();  // the source may use its picture again
   view.goal_corners.fill({std::nan(""), std::nan("")});
-  for (const PixelPair& pair : track.inliers) view.inliers.push_back(pair.in_image);
+  add_matches(logged_matches(track), view);
   if (row.pose) view.seen = target_pose(*row.pose);
   view.chain_ms = chain_ms;
   station_->show(std::move(view));

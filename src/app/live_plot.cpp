@@ -21,6 +21,13 @@ const PlotModule& plot_module() {
   return module_functions<PlotModule>("plot");
 }
 
+std::vector<PlotGraph> graphs(const std::vector<std::string>& laws) {
+  return {{"error", "", laws},
+          {"speed", "m/s", laws},
+          {"turn rate", "rad/s", laws},
+          {"condition number", "", laws}};
+}
+
 /// Length of a vector whose components are columns, row by row.
 std::vector<double> length(const RunTrace& trace, const std::vector<std::string>& columns) {
   std::vector<double> sum(trace.rows.size(), 0);
@@ -48,8 +55,7 @@ std::vector<std::vector<double>> graphs_of(const LabRun& run) {
 LivePlot::LivePlot(std::vector<std::string> laws)
     : module_(plot_module()),
       laws_(std::move(laws)),
-      plots_(module_.open({"error", "speed", "turn rate", "condition number"},
-                          {"", "m/s", "rad/s", ""}, laws_)) {}
+      plots_(module_.open({"kestrel compare"}, graphs(laws_))) {}
 
 LivePlot::~LivePlot() { module_.close(plots_); }
 

@@ -90,6 +90,11 @@ Recording load_recording(const fs::path& folder) {
   if (run.log.was_interrupted) {
     run.notes.emplace_back("the last line of run.csv has no end and was left out");
   }
+  try {
+    run.matches = read_matches(folder / "matches.csv");
+  } catch (const FileError& error) {
+    run.notes.push_back(std::string("no keypoints are drawn: ") + error.what());
+  }
   run.chain_ms = chain_times_ms(folder / "timing.csv", run.log);
   const auto experiment = experiment_of(folder, run.notes);
   if (experiment) run.task = experiment->task;

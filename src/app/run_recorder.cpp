@@ -1,13 +1,16 @@
 #include "run_recorder.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "kestrel/io/csv.hpp"
 #include "kestrel/io/run_folder.hpp"
 
+#include "interrupt.hpp"
 #include "progress.hpp"
 #include "recorded_run.hpp"
 
@@ -20,6 +23,7 @@ constexpr int kWorstPictures = 3;
 const std::vector<ReportFile>& file_words() {
   static const std::vector<ReportFile> words = {
       {"run.csv", "one row a frame: what was seen, decided and sent"},
+      {"matches.csv", "keypoints of the frames in which some were matched"},
       {"timing.csv", "processing times of each frame, ms"},
       {"wire.csv", "when each command left, and how old its frame was"},
       {"truth.csv", "where the helicopter really was, at each frame"},
@@ -35,6 +39,12 @@ const std::vector<ReportFile>& file_words() {
   return words;
 }
 
+/// Before a folder is made for a run that cannot be shown.
+RecorderOptions showable(const RecorderOptions& options) {
+  if (options.display) require_display();
+  return options;
+}
+
 }  // namespace
 
 double quantile(std::vector<double> values, double share) {
@@ -45,9 +55,10 @@ double quantile(std::vector<double> values, double share) {
 }
 
 RunRecorder::RunRecorder(const RecorderOptions& options)
-    : options_(options),
+    : options_(showable(options)),
       folder_(create_run_folder(options.folder)),
       log_(folder_ / "run.csv", options.extra_columns),
+      matches_(folder_ / "matches.csv"),
       timing_(folder_ / "timing.csv", {"source", "chain", "record"}),
       sheet_(kEvenPictures, kWorstPictures) {
   if (options.video) video_ = std::make_unique<VideoWriter>(folder_ / "run.mp4", options.rate_hz);
@@ -59,10 +70,11 @@ RunRecorder::RunRecorder(const RecorderOptions& options)
   }
 }
 
-bool RunRecorder::record(const LogRow& row, const std::function<cv::Mat()>& draw, double badness,
-                         StageTimes times) {
+Click RunRecorder::record(const LogRow& row, const Track& track,
+                          const std::function<cv::Mat()>& draw, double badness, StageTimes times) {
   const double start_s = monotonic_s();
   log_.write(row);
+  matches_.write(row.frame, track);
   cv::Mat picture;
   const auto drawn = [&] {
     if (picture.empty()) picture = draw();
@@ -70,16 +82,29 @@ bool RunRecorder::record(const LogRow& row, const std::function<cv::Mat()>& draw
   };
   if (video_) video_->write(drawn());
   sheet_.offer(drawn, fmt::format("frame {}", row.frame), badness);
-  bool goes_on = true;
+  Click click = Click::None;
   if (options_.display) {
     drawn();
-    if (!window_) window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel");
-    goes_on = window_->show(picture);
+    if (!window_) {
+      window_ = std::make_unique<Window>(picture.cols, picture.rows, "Kestrel");
+      plot_ = std::make_unique<RowPlot>(picture.size());
+    }
+    plot_->draw(row);
+    click = window_->show(picture, options_.hint);
   }
   times.record_ms += (monotonic_s() - start_s) * 1e3;
   timing_.write(row.frame, {times.source_ms, times.chain_ms, times.record_ms});
   chain_ms_.push_back(times.chain_ms);
-  return goes_on;
+  return click;
+}
+
+Click RunRecorder::wait_for_click() {
+  while (window_ && !interrupted()) {
+    const Click click = window_->click();
+    if (click != Click::None) return click;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return Click::Right;
 }
 
 void RunRecorder::add_times(Summary& summary) const {

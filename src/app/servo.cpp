@@ -89,12 +89,14 @@ RunResult servo(const ServoArguments& a) {
     note_times(sink, times.get());
     return std::nullopt;
   };
-  const bool is_watched_recording = a.ground.port && !origin_s;  // what is live has its own pace
+  const bool is_watched_recording =
+      (a.ground.port || a.run.display) && !origin_s;  // what is live has its own pace
   Chain chain{*source,           ground.sink(), learned_task.tracker,
               learned_task.task, recorder,      is_watched_recording ? Pace::RealTime : a.pace,
               sink.attitude};
   chain.ground = ground.station();
   chain.steered = ground.steering();
+  if (a.run.display && !chain.ground) chain.start = origin_s ? Start::ByClick : Start::Paused;
   if (origin_s) {
     chain.age_s = [zero_s = *origin_s](double stamp_s) { return monotonic_s() - zero_s - stamp_s; };
   }

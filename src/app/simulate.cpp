@@ -80,7 +80,8 @@ SimulatedFlight fly(const SimulateArguments& a) {
   Chain chain{world, sink, prepared.tracker, prepared.task, recorder};
   chain.ground = ground.station();
   chain.steered = ground.steering();
-  if (chain.ground || outside.lives_by_the_clock) chain.pace = Pace::RealTime;
+  if (a.run.display && !chain.ground) chain.start = Start::Paused;
+  if (chain.ground || a.run.display || outside.lives_by_the_clock) chain.pace = Pace::RealTime;
   chain.velocity = [&world](double) { return world.measured_velocity_m_s(); };
   chain.age_s = [late = simulation.world.imaging.latency_s](double) { return late; };
   std::optional<OutsideView> outside_view;

@@ -33,6 +33,7 @@ RecorderOptions recorder_options(const RunArguments& run, const std::filesystem:
   options.rate_hz = rate_hz;
   options.video = run.video;
   options.display = run.display;
+  options.hint = "left click: start, stop; right click: end";
   options.extra_columns = extra_columns;
   options.configuration = text_of(task);
   options.task = task;

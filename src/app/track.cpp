@@ -80,7 +80,8 @@ class TrackRun {
 
   void start(const Frame& first) { state_ = tracker_.start(first.gray.cols, first.gray.rows); }
 
-  /// False once the user has closed the window.
+  /// False once the user has closed the window. A left click there holds what it shows until the
+  /// next one.
   bool frame(const Frame& frame, double source_ms) {
     const double start_s = monotonic_s();
     const Track seen = tracker_.track(frame, state_);
@@ -96,7 +97,9 @@ class TrackRun {
     ground_.show(frame, row, seen, chain_ms);
     const double badness = seen.found() ? row.extra[0] : 1e6;
     const auto draw = [&] { return overlay(frame, model_, seen); };
-    return recorder_.record(row, draw, badness, {source_ms, chain_ms, 0});
+    Click click = recorder_.record(row, seen, draw, badness, {source_ms, chain_ms, 0});
+    if (click == Click::Left) click = recorder_.wait_for_click();
+    return click != Click::Right;
   }
 
   Summary summary(const FrameSource& source, const std::string& ended_by) const {
@@ -217,12 +220,13 @@ int run(const TrackArguments& a) {
   RecorderOptions wanted =
       recorder_options(a.run, {}, job.sequence.rate_hz.value_or(30), {"corner_error_px"});
   if (a.run.output.empty()) wanted.folder = default_folder(a.input);
+  wanted.hint = "left click: hold, go on; right click: end";
   OnlookerGround ground(a.ground, "nothing flies here: track only looks");
   RunRecorder recorder(wanted);
   TrackRun tracking(tracker, pose, truth, recorder, ground);
   tracking.start(first);
   // What is live has its own pace, and what is watched is of a human's.
-  const bool is_watched_recording = ground.is_there() && job.live.empty();
+  const bool is_watched_recording = (ground.is_there() || a.run.display) && job.live.empty();
   const Pacer pacer(is_watched_recording ? Pace::RealTime : Pace::AsFastAsPossible);
   const std::string ended_by = fold(tracking, *source, pacer, first);
   RunResult result{recorder.folder(), tracking.summary(*source, ended_by), 0};

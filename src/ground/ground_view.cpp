@@ -1,6 +1,7 @@
 #include "kestrel/ground/ground_view.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,9 @@ void add_track(Json& to, const LogRow& row) {
   to["miss"] = name(row.miss);
   to["age_s"] = row.age_s;
   to["confidence"] = row.confidence;
+  to["keypoints"] = row.keypoints;
+  to["matches"] = row.matches;
+  to["agree"] = row.inliers;
   to["corners"] = pairs_or_null(row.corners);
   to["predicted"] = pairs_or_null(row.predicted);
   to["window"] = {row.window.u, row.window.v, row.window.width, row.window.height};
@@ -93,7 +97,7 @@ GroundView ground_view(const Frame& frame, const Step& step, const Template& mod
   for (std::size_t i = 0; i < view.goal_corners.size(); ++i) {
     view.goal_corners[i] = task.camera.to_pixel(desired[i].at);
   }
-  for (const PixelPair& pair_of : step.track.inliers) view.inliers.push_back(pair_of.in_image);
+  add_matches(logged_matches(step.track), view);
   if (step.pose) {
     view.seen = levelled(step.pose->camera_from_target, frame.attitude, task.body_from_camera);
   }
@@ -101,6 +105,11 @@ GroundView ground_view(const Frame& frame, const Step& step, const Template& mod
   if (frame.attitude) view.horizon = horizon(task.camera, task.body_from_camera, *frame.attitude);
   view.chain_ms = chain_ms;
   return view;
+}
+
+void add_matches(LoggedMatches matches, GroundView& view) {
+  view.inliers = std::move(matches.inliers);
+  view.others = std::move(matches.others);
 }
 
 TargetPose target_pose(const LoggedPose& logged) {
@@ -121,8 +130,10 @@ std::string json(const GroundView& view) {
   add_track(all, view.row);
   all["goal"] = pairs(view.goal_corners);
   all["inliers"] = pairs(view.inliers);
+  all["others"] = pairs(view.others);
   add_decision(all, view.row);
   all["chain_ms"] = rounded(view.chain_ms);
+  all["latency_ms"] = view.latency_ms ? Json(rounded(*view.latency_ms)) : Json();
   all["attitude"] = attitude_json(view.row.attitude);
   all["horizon"] = pairs_or_null(view.horizon);
   all["scene"] = scene_json(view.scene);

@@ -121,6 +121,8 @@ GroundView replay_view(const ReplayRun& run, std::size_t row, const cv::Mat& pic
     }
   }
   if (view.row.pose) view.seen = target_pose(*view.row.pose);
+  const auto matches = run.matches.find(view.row.frame);
+  if (matches != run.matches.end()) add_matches(matches->second, view);
   view.chain_ms = run.chain_ms.at(row);
   return view;
 }

@@ -32,8 +32,8 @@ caption{text-align:left;font-weight:600;padding:6px 0 2px}
 th,td{text-align:left;font-weight:400;padding:3px 0;border-bottom:1px solid var(--line);
 vertical-align:baseline;overflow-wrap:anywhere}
 tr:last-child>*{border-bottom:0}
-td.n{text-align:right;font-variant-numeric:tabular-nums;font-weight:600;padding-left:12px}
-td.u{color:var(--soft);padding-left:6px;width:4.5em;white-space:nowrap}
+td.n{text-align:right;font-variant-numeric:tabular-nums;font-weight:600;padding-left:12px;overflow-wrap:normal}
+td.u{color:var(--soft);padding-left:6px;width:4.5em;overflow-wrap:normal}
 .wide{overflow-x:auto;margin-bottom:14px}
 .wide th,.wide td{padding:3px 8px;white-space:nowrap}
 .wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
@@ -53,13 +53,7 @@ a{color:var(--accent)}
 footer{color:var(--soft);font-size:.87rem;padding-top:26px;padding-bottom:40px}
 @media(max-width:560px){header,main,footer{padding-left:12px;padding-right:12px}.card{padding:8px}}
 @media print{:root{--page:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#ccc}
-body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}.wide{overflow-x:auto;margin-bottom:14px}
-.wide th,.wide td{padding:3px 8px;white-space:nowrap}
-.wide th{vertical-align:bottom;color:var(--soft);font-size:.87rem;white-space:normal;
-overflow-wrap:normal;line-height:1.25}
-.wide td:not(.n){white-space:normal;overflow-wrap:normal}.wide th.n{text-align:right}.wide td.n{font-weight:400}
-.wide tbody tr:hover{background:var(--page)}
-video{display:none}
+body{font-size:11px}figure,table,.warn{break-inside:avoid}h2{break-after:avoid}video{display:none}
 pre{white-space:pre-wrap}.plots{columns:2}.sheet{grid-template-columns:1fr 1fr 1fr}}
 )css";
 

@@ -34,11 +34,14 @@ RansacOptions for_frame(RansacOptions options, std::int64_t index) {
   return options;
 }
 
-std::vector<PixelPair> chosen(const std::vector<PixelPair>& pairs, const std::vector<int>& which) {
-  std::vector<PixelPair> result;
-  result.reserve(which.size());
-  for (const int i : which) result.push_back(pairs[std::size_t(i)]);
-  return result;
+/// Parts the pairs in those at these ascending indices, and the others.
+void part(const std::vector<PixelPair>& pairs, const std::vector<int>& which, Track& to) {
+  auto next = which.begin();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool agrees = next != which.end() && *next == int(i);
+    if (agrees) ++next;
+    (agrees ? to.inliers : to.others).push_back(pairs[i]);
+  }
 }
 
 /// Why the answer of RANSAC is not to be believed; None when it is.
@@ -62,12 +65,15 @@ Track look(const Template& model, const Frame& frame, const PixelBox& window,
       distinct_pairs(model.matcher().match(seen.descriptors), model.keypoints(), seen);
   result.matches = int(pairs.size());
   result.miss = Miss::FewMatches;
-  if (result.matches < consensus(pairs.size(), options.ransac)) return result;
+  if (result.matches < consensus(pairs.size(), options.ransac)) {
+    result.others = pairs;
+    return result;
+  }
   const auto fit = ransac_homography(pairs, for_frame(options.ransac, frame.index));
   result.trials = fit ? fit->trials : options.ransac.max_trials;
   result.miss = Miss::NoConsensus;
+  part(pairs, fit ? fit->inliers : std::vector<int>{}, result);
   if (!fit) return result;
-  result.inliers = chosen(pairs, fit->inliers);
   result.miss = doubt(model, fit->image_from_template, result.inliers, options);
   if (result.miss != Miss::None) return result;
   result.image_from_template = fit->image_from_template;

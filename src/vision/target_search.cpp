@@ -45,6 +45,8 @@ struct TargetSearch::Parts {
   void settle(const Frame& frame, const std::optional<Expectation>& expected, Sighting& sighting);
   Sighting detect(const Frame& frame, const PixelBox& window,
                   const std::optional<Expectation>& expected, Structures structures);
+  std::optional<int> judge(const Frame& frame, const Detection& seen,
+                           const std::optional<Expectation>& expected, Sighting& result);
 };
 
 Sighting TargetSearch::Parts::follow(const Frame& frame, const Homography& last,
@@ -146,7 +148,17 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   result.miss = seen.keypoints < 4                                ? Miss::FewKeypoints
                 : result.matches < options.detect.fit.min_inliers ? Miss::FewMatches
                                                                   : Miss::NoConsensus;
-  if (seen.hypotheses.empty()) return result;
+  PartedPairs pairs = parted(seen, judge(frame, seen, expected, result));
+  result.inliers = std::move(pairs.inliers);
+  result.others = std::move(pairs.others);
+  return result;
+}
+
+/// The pixels' verdict on what the keypoints lead to: the hypothesis that is accepted.
+std::optional<int> TargetSearch::Parts::judge(const Frame& frame, const Detection& seen,
+                                              const std::optional<Expectation>& expected,
+                                              Sighting& result) {
+  if (seen.hypotheses.empty()) return std::nullopt;
   std::vector<Place> places;
   for (int i = 0; i < int(seen.hypotheses.size()); ++i) {
     const Homography& start = seen.hypotheses[std::size_t(i)].image_from_template;
@@ -156,13 +168,13 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return is_better(a.at, b.at); });
   result.miss = Miss::NotAlike;
-  if (places.empty()) return result;
+  if (places.empty()) return std::nullopt;
   const Choice chosen = choice(places, expected, verdict, model);
   result.miss = chosen.miss;
   result.at = places[chosen.place].at;
   settle(frame, expected, result);
-  if (result.is_accepted()) result.inliers = inlier_pairs(seen, places[chosen.place].hypothesis);
-  return result;
+  if (!result.is_accepted()) return std::nullopt;
+  return places[chosen.place].hypothesis;
 }
 
 TargetSearch::TargetSearch(const Template& model, const TrackOptions& options)

@@ -128,6 +128,7 @@ struct Tracker::Parts {
     t.window = seen.window;
     t.keypoints = seen.keypoints;
     t.matches = seen.matches;
+    t.others = std::move(seen.others);
     if (seen.at) t.agreement = seen.at->agreement;
     if (!seen.is_accepted()) {
       missed(frame, state, t);

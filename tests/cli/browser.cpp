@@ -121,8 +121,32 @@ void Browser::key_up(const std::string& key) {
 
 void Browser::screen(int width, int height) {
   const Json size{{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", true}};
-  call("/goog/cdp/execute",
-       Json{{"cmd", "Emulation.setDeviceMetricsOverride"}, {"params", size}}.dump());
+  devtools("Emulation.setDeviceMetricsOverride", size.dump());
+}
+
+void Browser::touch_screen(int width, int height) {
+  screen(width, height);
+  devtools("Emulation.setTouchEmulationEnabled",
+           Json{{"enabled", true}, {"maxTouchPoints", 5}}.dump());
+}
+
+void Browser::touch(const std::string& what, const std::vector<Finger>& fingers) {
+  Json points = Json::array();
+  for (const Finger& f : fingers) points.push_back({{"x", f.x}, {"y", f.y}, {"id", f.id}});
+  devtools("Input.dispatchTouchEvent", Json{{"type", what}, {"touchPoints", points}}.dump());
+}
+
+void Browser::tap(const std::string& id) {
+  run("document.getElementById('" + id + "').scrollIntoView({block: 'center'})");
+  const Json at = Json::parse(run("const b = document.getElementById('" + id +
+                                  "').getBoundingClientRect();"
+                                  "return [b.left + b.width / 2, b.top + b.height / 2]"));
+  touch("touchStart", {{0, at[0], at[1]}});
+  touch("touchEnd", {});
+}
+
+void Browser::devtools(const std::string& command, const std::string& parameters) {
+  call("/goog/cdp/execute", Json{{"cmd", command}, {"params", Json::parse(parameters)}}.dump());
 }
 
 void Browser::crash() {

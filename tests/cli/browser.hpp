@@ -2,10 +2,18 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/program.hpp"
 
 namespace kestrel::test {
+
+/// A finger on the screen, px of the window; it keeps its id until it is lifted.
+struct Finger {
+  int id = 0;
+  double x = 0;
+  double y = 0;
+};
 
 /// A headless Chromium, driven as W3C's WebDriver says (w3.org/TR/webdriver2).
 class Browser {
@@ -37,12 +45,21 @@ class Browser {
   void key_up(const std::string& key);
   /// Gives the page a screen of this size, px: a telephone's where it is narrow.
   void screen(int width, int height);
+  /// The same with fingers: it has no mouse that could rest over something.
+  void touch_screen(int width, int height);
+  /// What fingers do on it (DevTools protocol, Input.dispatchTouchEvent): "touchStart" and
+  /// "touchMove" with all that are on it then, "touchEnd" with those that are lifted (none: all),
+  /// "touchCancel" with none.
+  void touch(const std::string& what, const std::vector<Finger>& fingers);
+  /// A short touch in the middle of an element.
+  void tap(const std::string& id);
   /// Ends the browser as a power cut does: its pages are told nothing.
   void crash();
   /// A PNG in base64.
   std::string screenshot();
 
  private:
+  void devtools(const std::string& command, const std::string& parameters);
   void act(const std::string& actions);
   std::string call(const std::string& path, const std::string& body);
 

@@ -63,6 +63,25 @@ TEST_F(View, OfAnEmptyStepIsSoundJson) {
   EXPECT_TRUE(words["distance_m"].is_null());
 }
 
+TEST_F(View, HasTheMatchesThatAgreeAndTheOthersApart) {
+  Step seen;
+  seen.track.inliers = {{{0, 0}, {10, 20}}, {{1, 1}, {30, 40.5}}};
+  seen.track.others.assign(3 * MatchLog::kMost, {{0, 0}, {50, 60}});
+  seen.track.keypoints = 900;
+  seen.track.matches = int(2 + 3 * MatchLog::kMost);
+  GroundView view = ground_view(frame(), seen, tracker_.model(), task_, 0);
+  const Json words = Json::parse(json(view));
+  EXPECT_EQ(words["inliers"], Json({{10.0, 20.0}, {30.0, 40.5}}));
+  EXPECT_EQ(words["others"].size(), MatchLog::kMost) << "a radio carries them";
+  EXPECT_EQ(words["others"][0], Json({50.0, 60.0}));
+  EXPECT_EQ(words["keypoints"], 900);
+  EXPECT_EQ(words["matches"], seen.track.matches);
+  EXPECT_EQ(words["agree"], 2);
+  EXPECT_TRUE(words["latency_ms"].is_null()) << "nobody said when it was captured";
+  view.latency_ms = 41.5;
+  EXPECT_EQ(Json::parse(json(view))["latency_ms"], 41.5);
+}
+
 // A helicopter that tilts about the camera's centre: levelled, the pose is that before the tilt.
 TEST(Levelled, UndoesTheTilt) {
   const Task task = test::example_task(test::forward_camera());

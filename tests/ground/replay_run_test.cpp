@@ -50,6 +50,16 @@ TEST(ReplayRun, AViewIsThatOfTheFlight) {
   EXPECT_FALSE(replay_view(run, 1, picture).seen);
 }
 
+TEST(ReplayRun, KeypointsOfAFrameAreThoseOfItsNumber) {
+  ReplayRun run = small_run("one", 3);
+  run.matches[102] = {{{1, 2}}, {{3, 4}, {5, 6}}};
+  const GroundView view = replay_view(run, 2, {});
+  ASSERT_EQ(view.inliers.size(), 1u);
+  EXPECT_EQ(view.inliers[0].v, 2);
+  EXPECT_EQ(view.others.size(), 2u);
+  EXPECT_TRUE(replay_view(run, 0, {}).inliers.empty());
+}
+
 TEST(ReplayRun, AGoalIsDrawnWhereTheTaskWantsIt) {
   ReplayRun run = small_run("one", 1);
   run.task = test::example_task(test::forward_camera());

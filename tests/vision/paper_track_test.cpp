@@ -90,6 +90,22 @@ TEST(PaperTrack, FindsTheTemplateWhereItWasLearned) {
   EXPECT_GT(int(seen.inliers.size()), int(model().keypoints().at.size()) / 2);
 }
 
+TEST(PaperTrack, PartsItsMatchesInThoseThatAgreeAndTheOthers) {
+  const TrackState start = looking_at(first_window(kBox, kWidth, kHeight));
+  const Track seen = paper_track(model(), frame_of(scene()), start, kPaper);
+  EXPECT_EQ(int(seen.inliers.size() + seen.others.size()), seen.matches);
+  for (const PixelPair& pair : seen.others) {
+    const Pixel there = *seen.image_from_template * pair.in_template;
+    EXPECT_GT(distance(there, pair.in_image), 1) << "it would agree";
+  }
+  TrackOptions wary = kPaper;
+  wary.ransac.min_inliers = 10000;  // more than there are: nothing agrees
+  const Track refused = paper_track(model(), frame_of(scene()), start, wary);
+  EXPECT_TRUE(refused.inliers.empty());
+  EXPECT_GT(refused.matches, 0);
+  EXPECT_EQ(int(refused.others.size()), refused.matches);
+}
+
 TEST(PaperTrack, RecoversKnownViews) {
   for (const test::Motion& motion :
        {test::Motion{0.5, 0, 0, 0}, test::Motion{0.7, 0.3, 0, 0}, test::Motion{1.4, -0.3, 0, 0},

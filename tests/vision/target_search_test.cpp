@@ -283,6 +283,20 @@ TEST(TargetSearch, DetectsAndRefinesOnThePixels) {
   EXPECT_GE(int(seen.inliers.size()), TrackOptions{}.detect.fit.min_inliers);
 }
 
+TEST(TargetSearch, PartsItsMatchesInThoseThatLedThereAndTheOthers) {
+  const Homography truth = placed_at({210, 150}, {1.05, 0.1, 0.2, 0});
+  const Sighting seen = search().detect(frame_of(planted(truth)), kEverywhere, {});
+  ASSERT_TRUE(seen.is_accepted());
+  EXPECT_FALSE(seen.inliers.empty());
+  EXPECT_EQ(int(seen.inliers.size() + seen.others.size()), seen.matches);
+  for (const PixelPair& pair : seen.inliers) {
+    EXPECT_LT(distance(truth * pair.in_template, pair.in_image), 5) << "a keypoint is that good";
+  }
+  const Sighting strange = search().detect(frame_of(test::ground()), kEverywhere, {});
+  EXPECT_TRUE(strange.inliers.empty());
+  EXPECT_EQ(int(strange.others.size()), strange.matches);
+}
+
 TEST(TargetSearch, SaysWhyItDetectsNothing) {
   const cv::Mat flat(test::kGroundHeight, test::kGroundWidth, CV_8UC1, cv::Scalar(90));
   EXPECT_EQ(search().detect(frame_of(flat), kEverywhere, {}).miss, Miss::FewKeypoints);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "kestrel/ground/ground_view.hpp"
+#include "kestrel/io/match_log.hpp"
 #include "kestrel/io/run_log.hpp"
 #include "kestrel/loop/task.hpp"
 
@@ -15,8 +17,9 @@ namespace kestrel {
 /// A recorded run, to be shown again.
 struct ReplayRun {
   std::string name;
-  LogFile log;                     // with a row at least
-  std::vector<double> chain_ms;    // one a row; NaN: not known
+  LogFile log;                                    // with a row at least
+  std::vector<double> chain_ms;                   // one a row; NaN: not known
+  std::map<std::int64_t, LoggedMatches> matches;  // by the frame's number; older runs have none
   std::optional<Task> task;        // absent: of `track`, or it cannot be read any more
   std::vector<std::string> notes;  // what is missing and why, for a human
 };
@@ -30,8 +33,7 @@ std::vector<double> chain_times_ms(const std::filesystem::path& timing_csv, cons
 /// smallest that holds all outlines and windows (640x480 or more).
 std::array<int, 2> picture_size_px(const ReplayRun& run);
 
-/// A row as the viewers of a flight see it. A picture that is empty becomes a black one. Keypoints
-/// are not kept in a log: none are shown.
+/// A row as the viewers of a flight see it. A picture that is empty becomes a black one.
 GroundView replay_view(const ReplayRun& run, std::size_t row, const cv::Mat& picture);
 
 /// The whole run for the curves, a JSON object: name, notes, stamp_s, frame, found (true, false),

@@ -21,6 +21,7 @@ struct Sighting {
   int keypoints = 0;
   int matches = 0;
   std::vector<PixelPair> inliers;
+  std::vector<PixelPair> others;  // matches that are no inliers
 
   bool is_accepted() const { return miss == Miss::None; }
 };

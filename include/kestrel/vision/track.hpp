@@ -83,6 +83,8 @@ struct Track {
   int matches = 0;
   int trials = 0;
   std::vector<PixelPair> inliers;  // pairs of keypoints that agree; none where none were looked for
+  /// The other matches of the frame: that agree with no place, or with one that was refused.
+  std::vector<PixelPair> others;
   TrackState next;
 
   bool found() const { return image_from_template.has_value(); }

@@ -7,6 +7,7 @@ const plots = {
   condition: new Plot("plot_condition", ["condition"]),
   time: new Plot("plot_time", ["chain", "behind"]),
 };
+const latency = new Histogram("latency", "latency_words", ["chain", "capture to command"]);
 let token = "", desk = null, frozen = null, lastPicture_ms = 0, lastWord_ms = 0, told = 0, drag = null, alive = null;
 
 // ---- what the program says
@@ -67,6 +68,14 @@ const kMiss = { no_image: "no picture", few_keypoints: "too little texture in si
   no_consensus: "matches do not agree", bad_outline: "no possible view", undetermined: "too uncertain",
   not_alike: "does not look like the template", ambiguous: "two places look alike" };
 
+// Without the sign of a nought.
+function fixed(x, digits) {
+  const text = x.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text;
+}
+
+const kStage = { none: "–", aligned: "its pixels, followed", searched: "its pixels, searched for", detected: "keypoints" };
+
 function showSight(view) {
   const sure = Math.round(100 * view.confidence) + " % sure";
   if (view.status === "found") badge("sight", "Target seen, " + sure, view.confidence > 0.5 ? "ok" : "so");
@@ -75,18 +84,20 @@ function showSight(view) {
 }
 
 function showNumbers(view, words) {
-  const v = list => list ? list.map(x => x.toFixed(2)).join("  ") : "–";
+  const v = list => list ? list.map(x => fixed(x, 2)).join("  ") : "–";
   const rows = {
     "Frame": view.frame + ", " + view.stamp_s.toFixed(2) + " s",
     "Distance": view.distance_m === null ? "–" : view.distance_m.toFixed(2) + " m",
     "Command rests on": view.state === "sticks" ? "a hand" : view.state || "–",
-    "Sent": v(view.sent) + "  m/s, rad/s",
+    "Sent, m/s, rad/s": v(view.sent),
     "The law wants": v(view.wanted),
     "Most allowed": v(desk.speed),
     "Error": view.error_norm === null ? "–" : view.error_norm.toFixed(4),
     "Condition": view.condition === null ? "–" : view.condition.toFixed(0),
-    "Found by": view.stage,
+    "Found by": kStage[view.stage],
+    "Keypoints": view.keypoints ? `${view.keypoints}, ${view.matches} matched, ${view.agree} agree` : "none looked for",
     "Chain": view.chain_ms === null ? "–" : view.chain_ms.toFixed(1) + " ms",
+    "Capture to command": view.latency_ms === null ? "–" : view.latency_ms.toFixed(0) + " ms",
     "Behind": words.encode_ms.toFixed(0) + " ms in the program",
     "Command": desk.commander === "" ? "nobody" : commanding() ? "this page" : "another page",
     "Viewers": desk.viewers + (desk.refused ? `, ${desk.refused} requests refused` : ""),
@@ -123,6 +134,7 @@ async function showFrame({ words, jpeg }) {
   plots.command.add(view.stamp_s, view.sent && [...view.sent, ...view.wanted]);
   plots.condition.add(view.stamp_s, [view.condition]);
   plots.time.add(view.stamp_s, [view.chain_ms, words.encode_ms]);
+  if (!Replay.isThere) latency.add([view.chain_ms, view.latency_ms]);
   document.documentElement.dataset.frame = view.frame;  // for those who watch the page
 }
 
@@ -146,6 +158,7 @@ async function give(word, more) {
 
 async function take() {
   const reply = await give("take");
+  if (/^you have the command/.test(reply.words)) say(`${reply.words}: press Start, hold a stick, or draw a new template`, "ok");
   if (reply.done && !alive) alive = setInterval(() => Commands.give("alive").catch(() => {}), 500);
 }
 
@@ -203,32 +216,53 @@ async function examine() {
 
 async function use() {
   const reply = await give("use", { width_m: Number(at("width_m").value) });
-  if (reply.done) { Picture.forget(); Views.forget(); goLive(); }
+  if (!reply.done) return;
+  Picture.forget();
+  Views.forget();
+  goLive();
+  say(`${reply.words}: press Start to servo on it`, "ok");
 }
 
 function cornersToRectangle(a, b) {
   return { x: Math.min(a.x, b.x), y: Math.min(a.y, b.y), w: Math.abs(a.x - b.x), h: Math.abs(a.y - b.y) };
 }
 
+// One finger or the mouse draws; others on the picture meanwhile draw nothing.
 function onDown(event) {
+  if (Replay.isThere || drag || event.button !== 0) return;
   if (!commanding()) return say("Take the command first; then a rectangle can be drawn.", "bad");
   event.preventDefault();
   Picture.canvas.setPointerCapture(event.pointerId);
-  drag = { from: Picture.place(event), ready: freeze() };
+  drag = { finger: event.pointerId, from: Picture.place(event), wasLive: frozen === null, ready: freeze() };
 }
 
+function draws(event) { return drag !== null && drag.finger === event.pointerId; }
+
 function onMove(event) {
-  if (drag) Picture.mark(cornersToRectangle(drag.from, Picture.place(event)));
+  if (draws(event)) Picture.mark(cornersToRectangle(drag.from, Picture.place(event)));
+}
+
+// The system took the finger away: nothing was drawn.
+async function onCancel(event) {
+  if (!draws(event)) return;
+  const { wasLive, ready } = drag;
+  drag = null;
+  await ready;
+  if (wasLive) goLive(); else Picture.mark(rectangle());
+  say("Nothing was drawn: the finger was taken away.", "bad");
 }
 
 async function onUp(event) {
-  if (!drag) return;
-  const { from, ready } = drag, r = cornersToRectangle(from, Picture.place(event));
+  if (!draws(event)) return;
+  const { from, ready, wasLive } = drag, r = cornersToRectangle(from, Picture.place(event));
   drag = null;
   if (!(await ready)) return;
-  setRectangle(r);
-  if (r.w >= 16 && r.h >= 16) await examine();
-  else say("The rectangle is too small: at least 16x16 px.", "bad");
+  if (r.w >= 16 && r.h >= 16) {
+    setRectangle(r);
+    return examine();
+  }
+  if (wasLive) goLive(); else Picture.mark(rectangle());  // a tap is no rectangle
+  say("The rectangle is too small: drag one of 16x16 px or more.", "bad");
 }
 
 // ---- wiring
@@ -254,6 +288,8 @@ function wire() {
   Picture.canvas.addEventListener("pointerdown", onDown);
   Picture.canvas.addEventListener("pointermove", onMove);
   Picture.canvas.addEventListener("pointerup", onUp);
+  Picture.canvas.addEventListener("pointercancel", onCancel);
+  Picture.canvas.addEventListener("contextmenu", event => event.preventDefault());
   document.addEventListener("keydown", event => {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const writes = /^(text|password|number|select-one)$/.test(event.target.type || "") && key !== "Escape";
@@ -263,6 +299,16 @@ function wire() {
     kKeys[key]();
   });
   setInterval(() => { for (const plot of Object.values(plots)) plot.draw(); Views.draw(); }, 200);
+  setInterval(() => latency.draw(), 1000);
+  if (matchMedia("(max-width:640px), (max-height:500px)").matches) at("legend").open = false;
+  // What stays at the top covers what is scrolled to: told to the style.
+  const cover = new ResizeObserver(() => {
+    const head_px = document.querySelector("header").offsetHeight, picture = document.querySelector(".picture");
+    const stays = getComputedStyle(picture).position === "sticky";
+    document.documentElement.style.setProperty("--head", head_px + "px");
+    document.documentElement.style.setProperty("--cover", head_px + (stays ? picture.offsetHeight : 0) + 8 + "px");
+  });
+  for (const part of ["header", ".picture"]) cover.observe(document.querySelector(part));
   setInterval(watchLine, 500);
   const parts = { give, say, commanding, desk: () => desk };
   Sticks.wire(parts);

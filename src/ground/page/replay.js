@@ -3,7 +3,7 @@
 const Replay = (() => {
   const count = Number(document.querySelector('meta[name="recorded-runs"]').content);
   const kBatch = 30, kKept = 240, kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4, 8];
-  if (count > 0) document.body.classList.add("view_only");
+  if (count > 0) document.body.classList.add("view_only", "replaying");
   const caches = [new Map(), new Map()];
   let token = "", runs = null, shown = 0, now_s = 0, playing = false, speed = 1, dirty = true, fetching = null;
 
@@ -98,6 +98,22 @@ const Replay = (() => {
       kKeys[event.key]();
     });
   }
+  // Where the target was lost and seen again, each a way there.
+  function buildEvents() {
+    const kMost = 200, items = [];
+    runs.forEach((run, which) => run.found.forEach((found, row) => {
+      if (row > 0 ? found === run.found[row - 1] : found) return;
+      items.push({ time_s: run.times[row], which, words: (runs.length > 1 ? run.name + ": " : "") + (found ? "target seen again" : "target lost") });
+    }));
+    items.sort((a, b) => a.time_s - b.time_s);
+    for (const item of items.slice(0, kMost)) {
+      const button = element("button", { type: "button" }, `${item.time_s.toFixed(2)} s  ${item.words}`);
+      button.addEventListener("click", () => { playing = false; if (shown !== item.which) turn(); go(item.time_s); });
+      at("events").append(element("li", {}, button));
+    }
+    if (items.length > kMost) at("events").append(element("li", {}, `and ${items.length - kMost} more`));
+    if (!items.length) at("events").append(element("li", {}, "the target was seen in every frame"));
+  }
   function showBar(row) {
     if (document.activeElement !== at("time") || playing) at("time").value = now_s;
     at("when").textContent = `${runs[shown].name}: ${now_s.toFixed(2)} of ${length_s().toFixed(2)} s, `
@@ -112,8 +128,11 @@ const Replay = (() => {
     runs = await (await get("runs")).json();
     for (const run of runs) run.times = run.stamp_s.map(s => s - run.stamp_s[0]);
     for (const name of Object.keys(plots)) plots[name] = new RunPlot(plots[name], runs, name, () => now_s);
+    latency.rename(runs.map(run => run.name));
+    runs.forEach((run, i) => run.time.forEach(time => { if (time) latency.put(i, time[0]); }));
     Commands.give = async () => ({ done: false, took_ms: 0, words: "a recorded run takes no commands" });
     buildBar();
+    buildEvents();
   }
   // Shows what the slider and the keys ask for, until the program is gone.
   async function watch(nextToken, show) {
@@ -138,7 +157,7 @@ const Replay = (() => {
       await new Promise(wake => setTimeout(wake, 15));
     }
   }
-  return { watch: count > 0 ? watch : readStream };
+  return { watch: count > 0 ? watch : readStream, isThere: count > 0 };
 })();
 
 // Curves of whole runs, the second one dashed, and a line where the picture is.

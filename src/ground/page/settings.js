@@ -6,7 +6,7 @@ const Settings = (() => {
   let fly = null, place = null, goal = null;
   const edited = new Set();  // groups in which a human has written what is not yet asked for
 
-  const short = x => String(Number(x.toFixed(2)));
+  const short = x => String(Number(x.toFixed(2)) || 0);
   const inDegrees = list => list.map((x, i) => i === 3 ? x * kRadian : x);
   const inRadians = list => list.map((x, i) => i === 3 ? x / kRadian : x);
   const numbers = ids => ids.map(id => at(id).value.trim() === "" ? NaN : Number(at(id).value));
@@ -67,7 +67,7 @@ const Settings = (() => {
       place = scene.vehicle;
       goal = scene.goal;
       if (!edited.has("goal")) fill(kGoal, inDegrees(goal));
-      const words = place ? inDegrees(place).map((x, i) => i === 3 ? x.toFixed(0) : x.toFixed(2)).join(", ") : "not known";
+      const words = place ? inDegrees(place).map((x, i) => fixed(x, i === 3 ? 0 : 2)).join(", ") : "not known";
       at("goal_now").textContent = "Now: " + words + ".";
     },
   };

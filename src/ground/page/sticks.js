@@ -34,7 +34,7 @@ const Sticks = (() => {
     at("dead_man").setAttribute("aria-pressed", String(holders.size > 0));
     if (!fly || !fly.desk()) return;
     const v = velocity();
-    const words = held ? `${v[0].toFixed(2)}  ${v[1].toFixed(2)}  ${v[2].toFixed(2)} m/s,  ${(v[3] * 180 / Math.PI).toFixed(0)} deg/s` : why();
+    const words = held ? `${fixed(v[0], 2)}  ${fixed(v[1], 2)}  ${fixed(v[2], 2)} m/s,  ${fixed(v[3] * 180 / Math.PI, 0)} deg/s` : why();
     if (at("sticks_asked").textContent !== words) at("sticks_asked").textContent = words;
   }
 
@@ -97,20 +97,29 @@ const Sticks = (() => {
 
   function wirePad(name, id) {
     const pad = at(id), who = "pad " + name;
+    let finger = null, box = null;  // that holds it, and where the pad was then: a page that moves steers nothing
     const place = event => {
-      const box = pad.getBoundingClientRect(), half = 0.36 * box.width;
+      const half = 0.36 * box.width;
       pads[name] = [clip((event.clientX - box.left - box.width / 2) / half),
         clip((box.top + box.height / 2 - event.clientY) / half)];
       show();
     };
-    const end = () => { pads[name] = [0, 0]; letGo(who); };
+    const end = event => {
+      if (event.pointerId !== finger) return;
+      finger = null;
+      pads[name] = [0, 0];
+      letGo(who);
+    };
     pad.addEventListener("pointerdown", event => {
       event.preventDefault();
+      if (finger !== null && holders.has(who)) return;  // a second finger on the same stick
+      finger = event.pointerId;
+      box = pad.getBoundingClientRect();
       pad.setPointerCapture(event.pointerId);
       place(event);
       hold(who);
     });
-    pad.addEventListener("pointermove", event => { if (holders.has(who)) place(event); });
+    pad.addEventListener("pointermove", event => { if (event.pointerId === finger && holders.has(who)) place(event); });
     for (const word of ["pointerup", "pointercancel", "lostpointercapture"]) pad.addEventListener(word, end);
     pad.addEventListener("contextmenu", event => event.preventDefault());
   }

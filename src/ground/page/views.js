@@ -108,7 +108,7 @@ const Views = (() => {
     at("map_words").textContent = !scene.vehicle ? "The target is not seen; grey: where the vehicle was last."
       : "Vehicle: " + of(scene.vehicle) + ".";
     at("horizon_words").textContent = attitude
-      ? "Roll, pitch, heading: " + attitude.map(x => (x * 180 / Math.PI).toFixed(0)).join(", ") + " deg" : "The source tells no attitude.";
+      ? "Roll, pitch, heading: " + attitude.map(x => fixed(x * 180 / Math.PI, 0)).join(", ") + " deg" : "The source tells no attitude.";
   }
   function rate(now_ms, count) {
     counts.push([now_ms, count]);
