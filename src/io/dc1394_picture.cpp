@@ -7,8 +7,6 @@
 
 #include "kestrel/io/raw_picture.hpp"
 
-#include "dc1394_bus.hpp"
-
 namespace kestrel::iidc {
 namespace {
 

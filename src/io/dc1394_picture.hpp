@@ -1,8 +1,8 @@
 #pragma once
 
-#include <dc1394/dc1394.h>
-
 #include <opencv2/core/mat.hpp>
+
+#include "dc1394_bus.hpp"
 
 namespace kestrel::iidc {
 

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "dc1394_bus.hpp"
-
 namespace kestrel::iidc {
 namespace {
 

@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include <dc1394/dc1394.h>
-
 #include "kestrel/io/dc1394_camera.hpp"
 #include "kestrel/io/live_options.hpp"
+
+#include "dc1394_bus.hpp"
 
 namespace kestrel::iidc {
 

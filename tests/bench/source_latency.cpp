@@ -26,45 +26,13 @@
 #include "io/v4l2_standin.hpp"
 #include "latency_chain.hpp"
 #include "stamped_picture.hpp"
+#include "stamped_sender.hpp"
 #include "support/temp_folder.hpp"
 
 extern "C" void kestrel_dc1394_show(const unsigned char* pixels, int period_ms);
 
 namespace kestrel {
 namespace {
-
-/// Draws into FFmpeg's input until it is told to stop.
-class StampedSender {
- public:
-  explicit StampedSender(const std::string& output)
-      : pipe_(popen(("ffmpeg -loglevel error -probesize 32 -f rawvideo -pix_fmt gray -s 320x240 "
-                     "-framerate 25 -i - -an -threads 1 -pix_fmt yuv420p " +
-                     output)
-                        .c_str(),
-                    "w")),
-        thread_([this] { draw(); }) {}
-  ~StampedSender() {
-    stop_ = true;
-    thread_.join();
-    pclose(pipe_);
-  }
-  StampedSender(const StampedSender&) = delete;
-  StampedSender& operator=(const StampedSender&) = delete;
-
- private:
-  void draw() {
-    const cv::Mat picture = poster(120, 120, 7);
-    while (!stop_) {
-      const cv::Mat now = stamped(picture, monotonic_clock_s());
-      if (std::fwrite(now.data, 1, now.total(), pipe_) != now.total()) return;
-      std::fflush(pipe_);
-      std::this_thread::sleep_for(std::chrono::milliseconds(kPeriod_ms));
-    }
-  }
-  std::atomic<bool> stop_{false};
-  std::FILE* pipe_;
-  std::thread thread_;
-};
 
 void measure_stream(const std::string& name, const std::string& address,
                     const std::string& output) {
@@ -169,7 +137,8 @@ void measure_rtp_by_file(const std::filesystem::path& folder) {
                          "t=0 0\r\nm=video "
                       << port << " RTP/AVP 96\r\na=rtpmap:96 H264/90000\r\n";
   measure_stream("rtp:FILE.sdp (H.264 zero latency)", "rtp:" + file.string(),
-                 "-c:v libx264 -preset ultrafast -tune zerolatency -g 10 -bsf:v dump_extra -sdp_file /dev/null -f rtp "
+                 "-c:v libx264 -preset ultrafast -tune zerolatency -g 10 -bsf:v dump_extra "
+                 "-sdp_file /dev/null -f rtp "
                  "rtp://127.0.0.1:" +
                      std::to_string(port));
 }

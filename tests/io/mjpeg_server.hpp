@@ -18,11 +18,11 @@
 namespace kestrel::test {
 
 /// A camera that sends MJPEG over HTTP on the loopback, to one viewer: frame k is all of grey value
-/// (k % 20) * 10. After `frames` frames it stalls (keeps the connection and sends nothing) or ends
-/// (closes it).
+/// (k % 20) * 10. After `frames` frames it stalls (keeps the connection and sends nothing), ends
+/// (closes it) or spoils them (sends parts that are no JPEG).
 class MjpegServer {
  public:
-  enum class Then { Stall, End };
+  enum class Then { Stall, End, Spoil };
 
   MjpegServer(int frames, Then then) : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
@@ -63,7 +63,8 @@ class MjpegServer {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
       }
     }
-    while (then == Then::Stall && !stop_) {
+    while (then != Then::End && !stop_) {
+      if (then == Then::Spoil && !write_all(viewer, spoiled())) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     close(viewer);
@@ -74,6 +75,13 @@ class MjpegServer {
     cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC3, cv::Scalar::all((k % 20) * 10)), jpeg);
     return "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(jpeg.size()) +
            "\r\n\r\n" + std::string(jpeg.begin(), jpeg.end()) + "\r\n";
+  }
+
+  /// A part whose JPEG begins as one and goes on with what is none.
+  static std::string spoiled() {
+    const std::string jpeg = "\xff\xd8\xff\xdb" + std::string(2000, 'x') + "\xff\xd9";
+    return "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(jpeg.size()) +
+           "\r\n\r\n" + jpeg + "\r\n";
   }
 
   static bool write_all(int socket, const std::string& bytes) {

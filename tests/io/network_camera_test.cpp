@@ -69,5 +69,15 @@ TEST(NetworkCamera, SaysThatItStalls) {
   EXPECT_THAT(source->skipped().at(0), HasSubstr("no picture for 0.2 s"));
 }
 
+TEST(NetworkCamera, TellsThatPicturesComeDamaged) {
+  const test::MjpegServer server(20, test::MjpegServer::Then::Spoil);
+  const auto source = open_live(server.url(), quick(10, 20));
+  auto frame = source->next();
+  EXPECT_TRUE(has_image(*frame));
+  while (has_image(*frame)) frame = source->next();  // and then the loop is told that it is blind
+  EXPECT_GT(source->status().damaged, 0);
+  EXPECT_EQ(source->status().connections, 1) << "it is there: nothing is gained by a new one";
+}
+
 }  // namespace
 }  // namespace kestrel
