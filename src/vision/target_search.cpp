@@ -7,26 +7,12 @@
 #include "kestrel/vision/image_pyramid.hpp"
 
 #include "search/blurred_views.hpp"
+#include "search/parted.hpp"
 #include "search/places.hpp"
 #include "search/rivals.hpp"
 #include "search/verdict.hpp"
 
 namespace kestrel {
-namespace {
-
-/// Hands on the pairs of keypoints: those that led to the place, by their ascending indices, and
-/// the others.
-void part(const Detection& seen, const std::vector<int>& inliers, Sighting& to) {
-  auto next = inliers.begin();
-  for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
-    const bool leads_there = next != inliers.end() && *next == int(i);
-    if (leads_there) ++next;
-    (leads_there ? to.inliers : to.others)
-        .push_back({seen.pairs[i].in_template, seen.pairs[i].in_image});
-  }
-}
-
-}  // namespace
 
 struct TargetSearch::Parts {
   const Template& model;
@@ -164,8 +150,11 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
                 : result.matches < options.detect.fit.min_inliers ? Miss::FewMatches
                                                                   : Miss::NoConsensus;
   const auto hypothesis = judge(frame, seen, expected, result);
-  part(seen, hypothesis ? seen.hypotheses[std::size_t(*hypothesis)].inliers : std::vector<int>{},
-       result);
+  PartedPairs matched =
+      parted(seen.pairs,
+             hypothesis ? seen.hypotheses[std::size_t(*hypothesis)].inliers : std::vector<int>{});
+  result.inliers = std::move(matched.inliers);
+  result.others = std::move(matched.others);
   return result;
 }
 
