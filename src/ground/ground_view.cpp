@@ -136,7 +136,7 @@ std::string json(const GroundView& view) {
   all["latency_ms"] = view.latency_ms ? Json(rounded(*view.latency_ms)) : Json();
   all["attitude"] = attitude_json(view.row.attitude);
   all["horizon"] = pairs_or_null(view.horizon);
-  all["scene"] = scene_json(view.scene);
+  all["scene"] = view.scene ? scene_json(*view.scene) : Json();
   all["distance_m"] = view.seen ? Json(view.seen->translation.norm()) : Json();
   return all.dump();
 }

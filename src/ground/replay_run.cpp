@@ -67,6 +67,14 @@ Pixel farthest(const LogRow& row) {
   return most;
 }
 
+/// What ground_view says of a flight: the task and the row tell as much.
+void add_scene(const Task& task, GroundView& view) {
+  const auto& attitude = view.row.attitude;
+  if (view.seen) view.seen = levelled(*view.seen, attitude, task.body_from_camera);
+  view.scene = flight_scene(task, view.seen, attitude);
+  if (attitude) view.horizon = horizon(task.camera, task.body_from_camera, *attitude);
+}
+
 }  // namespace
 
 std::vector<double> chain_times_ms(const std::filesystem::path& timing_csv, const LogFile& log) {
@@ -121,6 +129,7 @@ GroundView replay_view(const ReplayRun& run, std::size_t row, const cv::Mat& pic
     }
   }
   if (view.row.pose) view.seen = target_pose(*view.row.pose);
+  if (run.task) add_scene(*run.task, view);
   const auto matches = run.matches.find(view.row.frame);
   if (matches != run.matches.end()) add_matches(matches->second, view);
   view.chain_ms = run.chain_ms.at(row);

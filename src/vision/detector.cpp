@@ -71,20 +71,6 @@ SiftPoints opencv_points(const cv::Mat& gray, const PixelBox& window,
 
 }  // namespace
 
-PartedPairs parted(const Detection& seen, const std::optional<int>& hypothesis) {
-  PartedPairs result;
-  std::vector<int> inliers;
-  if (hypothesis) inliers = seen.hypotheses[std::size_t(*hypothesis)].inliers;
-  auto next = inliers.begin();
-  for (std::size_t i = 0; i < seen.pairs.size(); ++i) {
-    const bool leads_there = next != inliers.end() && *next == int(i);
-    if (leads_there) ++next;
-    (leads_there ? result.inliers : result.others)
-        .push_back({seen.pairs[i].in_template, seen.pairs[i].in_image});
-  }
-  return result;
-}
-
 struct Detector::Memory {
   std::optional<FastSift> usual;
   std::optional<FastSift> small;

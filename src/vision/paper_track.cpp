@@ -1,10 +1,13 @@
 #include "kestrel/vision/paper_track.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "kestrel/vision/corner_covariance.hpp"
 #include "kestrel/vision/outline_deviation.hpp"
 #include "kestrel/vision/window.hpp"
+
+#include "search/parted.hpp"
 
 namespace kestrel {
 namespace {
@@ -32,16 +35,6 @@ PixelBox usable(const PixelBox& window, int image_width, int image_height) {
 RansacOptions for_frame(RansacOptions options, std::int64_t index) {
   options.seed ^= (std::uint64_t(index) + 1) * 0xD1342543DE82EF95ull;  // odd: one to one
   return options;
-}
-
-/// Parts the pairs in those at these ascending indices, and the others.
-void part(const std::vector<PixelPair>& pairs, const std::vector<int>& which, Track& to) {
-  auto next = which.begin();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool agrees = next != which.end() && *next == int(i);
-    if (agrees) ++next;
-    (agrees ? to.inliers : to.others).push_back(pairs[i]);
-  }
 }
 
 /// Why the answer of RANSAC is not to be believed; None when it is.
@@ -72,7 +65,9 @@ Track look(const Template& model, const Frame& frame, const PixelBox& window,
   const auto fit = ransac_homography(pairs, for_frame(options.ransac, frame.index));
   result.trials = fit ? fit->trials : options.ransac.max_trials;
   result.miss = Miss::NoConsensus;
-  part(pairs, fit ? fit->inliers : std::vector<int>{}, result);
+  PartedPairs matched = parted(pairs, fit ? fit->inliers : std::vector<int>{});
+  result.inliers = std::move(matched.inliers);
+  result.others = std::move(matched.others);
   if (!fit) return result;
   result.miss = doubt(model, fit->image_from_template, result.inliers, options);
   if (result.miss != Miss::None) return result;

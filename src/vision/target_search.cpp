@@ -7,11 +7,13 @@
 #include "kestrel/vision/image_pyramid.hpp"
 
 #include "search/blurred_views.hpp"
+#include "search/parted.hpp"
 #include "search/places.hpp"
 #include "search/rivals.hpp"
 #include "search/verdict.hpp"
 
 namespace kestrel {
+
 struct TargetSearch::Parts {
   const Template& model;
   TrackOptions options;
@@ -148,9 +150,12 @@ Sighting TargetSearch::Parts::detect(const Frame& frame, const PixelBox& window,
   result.miss = seen.keypoints < 4                                ? Miss::FewKeypoints
                 : result.matches < options.detect.fit.min_inliers ? Miss::FewMatches
                                                                   : Miss::NoConsensus;
-  PartedPairs pairs = parted(seen, judge(frame, seen, expected, result));
-  result.inliers = std::move(pairs.inliers);
-  result.others = std::move(pairs.others);
+  const auto hypothesis = judge(frame, seen, expected, result);
+  PartedPairs matched =
+      parted(seen.pairs,
+             hypothesis ? seen.hypotheses[std::size_t(*hypothesis)].inliers : std::vector<int>{});
+  result.inliers = std::move(matched.inliers);
+  result.others = std::move(matched.others);
   return result;
 }
 

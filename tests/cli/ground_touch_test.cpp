@@ -23,9 +23,17 @@ class Touch : public GroundVisit {
                 ".matches && innerWidth === " +
                 std::to_string(width)));
     ASSERT_TRUE(comes([&] { return frame() > 0; })) << browser_->text("line");
-    browser_->tap("take");
-    ASSERT_TRUE(says("answer", "you have the command")) << browser_->text("answer");
+    ASSERT_TRUE(tap("take", "answer", "you have the command")) << browser_->text("answer");
     ASSERT_TRUE(is_true("!document.getElementById('dead_man').disabled"));
+  }
+  /// Taps until it has worked: on a busy machine a tap may last so long that it is none.
+  bool tap(const std::string& id, const std::string& where, const std::string& words) {
+    for (int tries = 0; tries < 6; ++tries) {
+      browser_->tap(id);
+      if (comes([&] { return browser_->text(where).find(words) != std::string::npos; }, 5))
+        return true;
+    }
+    return false;
   }
   /// A place of an element by its shares of width and height, as it lies now.
   Finger on(const std::string& element, double right, double down, int id = 0) {
@@ -60,7 +68,7 @@ TEST_F(Touch, AFingerDrawsATemplate) {
   browser_->touch("touchEnd", {});
   EXPECT_TRUE(is_true("drag === null"));
   ASSERT_TRUE(says("verdict", "keypoints")) << browser_->text("answer");
-  browser_->tap("live");
+  browser_->run("goLive(); return 0");
   show("picture");
   const std::string again = view();
 
@@ -71,8 +79,7 @@ TEST_F(Touch, AFingerDrawsATemplate) {
   EXPECT_EQ(view(), again) << "the page must not go along";
   browser_->touch("touchEnd", {});
   ASSERT_TRUE(says("verdict", "keypoints")) << browser_->text("answer");
-  browser_->tap("use");
-  EXPECT_TRUE(says("events", "new template")) << browser_->text("answer");
+  EXPECT_TRUE(tap("use", "events", "new template")) << browser_->text("answer");
 }
 
 TEST_F(Touch, TwoFingersFlyAndEachLetsGoOfItsOwnStick) {

@@ -7,6 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kestrel/geometry/attitude.hpp"
+#include "kestrel/geometry/rotation.hpp"
+
 #include "ground/small_run.hpp"
 #include "loop/camera_view.hpp"
 #include "loop/flight.hpp"
@@ -58,6 +61,26 @@ TEST(ReplayRun, KeypointsOfAFrameAreThoseOfItsNumber) {
   EXPECT_EQ(view.inliers[0].v, 2);
   EXPECT_EQ(view.others.size(), 2u);
   EXPECT_TRUE(replay_view(run, 0, {}).inliers.empty());
+}
+
+TEST(ReplayRun, WithItsTaskItSaysWhereTheVehicleWas) {
+  ReplayRun run = small_run("one", 2);
+  EXPECT_FALSE(replay_view(run, 0, {}).scene);
+  EXPECT_TRUE(Json::parse(json(replay_view(run, 0, {})))["scene"].is_null());
+  run.task = test::example_task(test::forward_camera());
+  // Seen as from the goal by a helicopter that is pitched: levelled, it is at the goal.
+  const Attitude pitched{0, 0.1, 0};
+  const Eigen::Matrix3d tilt =
+      level_camera_from_camera(run.task->body_from_camera.rotation, pitched).transpose();
+  run.log.rows[0].attitude = pitched;
+  run.log.rows[0].pose = LoggedPose{tilt * run.task->goal.translation,
+                                    rotation_vector(tilt * run.task->goal.rotation), 0.1, false};
+  const GroundView view = replay_view(run, 0, {});
+  ASSERT_TRUE(view.scene);
+  ASSERT_TRUE(view.scene->vehicle);
+  EXPECT_LT((view.scene->vehicle->position_m - view.scene->goal.position_m).norm(), 1e-9);
+  EXPECT_TRUE(view.horizon);
+  EXPECT_FALSE(replay_view(run, 1, {}).scene->vehicle) << "not seen in that frame";
 }
 
 TEST(ReplayRun, AGoalIsDrawnWhereTheTaskWantsIt) {

@@ -22,7 +22,7 @@ struct GroundView {
   std::vector<Pixel> inliers;           // places of the keypoints that agree, px
   std::vector<Pixel> others;            // of those that matched and do not agree, px
   std::optional<TargetPose> seen;       // camera_from_target, the camera levelled; when seen
-  FlightScene scene{};
+  std::optional<FlightScene> scene;     // with a task: it says what is where
   std::optional<std::array<Pixel, 2>> horizon;  // in the picture; with an attitude
   double chain_ms = 0;                          // from the frame to the command
   std::optional<double> latency_ms;             // from its capture to the command, where known

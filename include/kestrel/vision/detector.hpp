@@ -20,16 +20,6 @@ struct Detection {
   std::vector<FittedHomography> hypotheses;  // best supported first
 };
 
-/// The pairs of keypoints of a detection.
-struct PartedPairs {
-  std::vector<PixelPair> inliers;  // those that led to the hypothesis
-  std::vector<PixelPair> others;
-};
-
-/// The pairs by whether they led to a hypothesis, by its place in the list; without one all are
-/// others.
-PartedPairs parted(const Detection& seen, const std::optional<int>& hypothesis);
-
 /// Which structures of a frame are searched for.
 enum class Structures {
   Usual,  // as options.detect.sift names them; small ones for a template that is small itself

@@ -102,6 +102,7 @@ function showNumbers(view, words) {
     "Command": desk.commander === "" ? "nobody" : commanding() ? "this page" : "another page",
     "Viewers": desk.viewers + (desk.refused ? `, ${desk.refused} requests refused` : ""),
   };
+  if (Replay.isThere) for (const name of ["Most allowed", "Behind", "Command", "Viewers"]) delete rows[name];
   const list = at("numbers");
   Object.entries(rows).forEach(([name, value], i) => {
     if (!list.children[2 * i]) list.append(document.createElement("dt"), document.createElement("dd"));
@@ -124,6 +125,7 @@ async function showFrame({ words, jpeg }) {
     Picture.show(await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" })), view);
   }
   showSight(view);
+  document.body.classList.toggle("no_scene", !view.scene);
   if (view.scene) {
     Views.show(view);
     Settings.showScene(view.scene);
@@ -322,7 +324,7 @@ function wire() {
 // A line that is cut without a word: what is shown is old, and nobody flies by hand what he does not see.
 function watchLine() {
   const silent_ms = performance.now() - lastWord_ms;
-  if (lastWord_ms === 0 || silent_ms < 2500) return;
+  if (lastWord_ms === 0 || silent_ms < 2500 || Replay.isThere) return;  // a recorded run stands still
   Sticks.letAllGo();
   badge("mode", "no connection", "bad");
   badge("sight", "nothing known", "bad");

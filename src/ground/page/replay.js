@@ -170,6 +170,7 @@ class RunPlot {
     this.step = Plot.step(Math.max(high - low, 1e-9) / 3);
     this.low = Math.floor(low / this.step) * this.step;
     this.high = Math.max(Math.ceil(high / this.step) * this.step, this.low + this.step);
+    plot.canvas.closest("section").hidden = values.length === 0;  // of a run that only tracks
     this.length_s = Math.max(...runs.map(run => run.times[run.times.length - 1]), 1e-3);
   }
   add() {}
