@@ -57,8 +57,8 @@ Frame first_frame(FrameSource& source, const std::string& name);
 /// when the user gives up.
 PixelBox ask_rectangle(const Frame& first);
 
-/// The tracker of a task, its template learned from the picture, or from the rectangle in the first
-/// frame.
+/// The tracker of a task, its template learned from the picture as it is, or from the rectangle in
+/// the first frame, straightened where the camera has a lens.
 Tracker learn_template(const Experiment& experiment, const Frame& first);
 
 }  // namespace kestrel::app

@@ -48,14 +48,6 @@ Tracker learned(const TrackJob& job, const Frame& first, TrackOptions options,
   return {straight_template(first.gray, box, *camera), box, options};
 }
 
-/// The map of the first frame's image to this frame's.
-Homography frame_from_first(const Homography& image_from_template, const Template& model) {
-  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
-  shift(0, 2) = -model.box().u;
-  shift(1, 2) = -model.box().v;
-  return {image_from_template.H * shift};
-}
-
 /// Distance of this frame's outline from the truth, px; NaN without truth or answer.
 double error_px(const TrackTruth& truth, std::int64_t frame,
                 const std::optional<Homography>& estimate) {
@@ -73,6 +65,7 @@ class TrackRun {
            RunRecorder& recorder, OnlookerGround& ground)
       : tracker_(tracker),
         model_(tracker.model()),
+        template_from_first_{tracker.learned_place().H.inverse()},
         pose_setup_(pose),
         truth_(std::move(truth)),
         recorder_(recorder),
@@ -90,7 +83,7 @@ class TrackRun {
     const double chain_ms = (monotonic_s() - start_s) * 1e3;
     state_ = seen.next;
     std::optional<Homography> estimate;
-    if (seen.found()) estimate = frame_from_first(*seen.image_from_template, model_);
+    if (seen.found()) estimate = Homography{seen.image_from_template->H * template_from_first_};
     estimates_[frame.index] = estimate;
     row.extra = {error_px(truth_, frame.index, estimate)};
     count(seen);
@@ -161,6 +154,7 @@ class TrackRun {
 
   Tracker& tracker_;
   const Template& model_;
+  const Eigen::Matrix3d template_from_first_;
   std::optional<PoseSetup> pose_setup_;
   TrackTruth truth_;
   RunRecorder& recorder_;

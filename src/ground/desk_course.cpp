@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "kestrel/geometry/plane_pose.hpp"
+#include "kestrel/geometry/straight_view.hpp"
 #include "kestrel/ground/ground_desk.hpp"
 #include "kestrel/vision/straight_template.hpp"
 
@@ -17,14 +18,6 @@ Answer refused(const std::string& words) { return {Answer::Kind::Refused, words}
 Answer done(const std::string& words) { return {Answer::Kind::Done, words}; }
 
 double degrees(double rad) { return rad * 180 / M_PI; }
-
-/// The homography of a template to the image it was learned from.
-Homography placed(const PixelBox& box) {
-  Homography H;
-  H.H(0, 2) = box.u;
-  H.H(1, 2) = box.v;
-  return H;
-}
 
 }  // namespace
 
@@ -113,7 +106,8 @@ Answer GroundDesk::freeze(std::int64_t frame) {
 /// were it as large in the picture as the goal wants the target.
 double GroundDesk::likely_width_m(const PixelBox& box, const GroundView& view) const {
   const TargetPose& pose = view.seen ? *view.seen : task_.goal;
-  return box.width * pose.translation.z() / task_.camera.parameters().px;
+  const double width_px = straight_place(box, task_.camera).H(0, 0) * box.width;
+  return width_px * pose.translation.z() / task_.camera.parameters().px;
 }
 
 Reply GroundDesk::examine(const PixelBox& box, Lock& lock) {
@@ -145,9 +139,11 @@ Answer GroundDesk::use(double width_m) {
   const PixelBox& box = candidate_->box;
   Task task = task_;
   task.target_width_m = width_m;
-  task.target_height_m = width_m * box.height / box.width;  // as if seen from the front
+  const Homography place = straight_place(box, task.camera);
+  const double sides = place.H(1, 1) * box.height / (place.H(0, 0) * box.width);
+  task.target_height_m = width_m * sides;  // as if seen from the front
   const PlaneSize size{box.width, box.height, task.target_width_m, task.target_height_m};
-  const auto pose = plane_pose(placed(box), size, task.camera, std::nullopt, task.pose);
+  const auto pose = plane_pose(place, size, without_lens(task.camera), std::nullopt, task.pose);
   if (!pose) return refused("from that place no goal follows; draw another rectangle");
   task.goal =
       levelled(pose->camera_from_target, candidate_->view->row.attitude, task.body_from_camera);

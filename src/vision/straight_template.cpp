@@ -46,6 +46,22 @@ cv::Mat places(const PixelBox& box, const Span& span, const Camera& camera) {
 
 }  // namespace
 
+Homography straight_place(const PixelBox& box, const Camera& camera) {
+  Homography place;
+  place.H << 1, 0, box.u, 0, 1, box.v, 0, 0, 1;
+  if (camera.parameters().lens == Lens::Pinhole) return place;
+  const CameraParameters& c = camera.parameters();
+  const Span span = span_of(box, camera);
+  const double right = c.px * (span.last.x - span.first.x) / box.width;  // px for each of the box
+  const double down = c.py * (span.last.y - span.first.y) / box.height;
+  Eigen::Matrix3d H;
+  H << right, 0, c.u0 + c.px * span.first.x + right / 2,  //
+      0, down, c.v0 + c.py * span.first.y + down / 2,     //
+      0, 0, 1;
+  if (H.allFinite()) place.H = H;
+  return place;
+}
+
 cv::Mat straight_template(const cv::Mat& gray, const PixelBox& box, const Camera& camera) {
   const cv::Rect whole(0, 0, gray.cols, gray.rows);
   const cv::Rect part(int(box.u), int(box.v), int(box.width), int(box.height));

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "kestrel/geometry/straight_view.hpp"
 #include "kestrel/vision/paper_track.hpp"
+#include "kestrel/vision/straight_template.hpp"
 #include "kestrel/vision/target_search.hpp"
 #include "kestrel/vision/window.hpp"
 
@@ -50,8 +52,9 @@ struct Tracker::Parts {
     Sighting seen;
     if (fits) {
       seen = search->detect(frame, first, expected);
-      if (seen.is_accepted() || options.window != WindowPolicy::Kalman ||
-          area_px2(first) >= area_px2(whole(frame))) {
+      // Two that are alike stay two, though a strip of the frame may show one of them only.
+      if (seen.is_accepted() || seen.miss == Miss::Ambiguous ||
+          options.window != WindowPolicy::Kalman || area_px2(first) >= area_px2(whole(frame))) {
         return seen;
       }
     }
@@ -150,10 +153,18 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 const Template& Tracker::model() const { return parts_->model; }
 const TrackOptions& Tracker::options() const { return parts_->options; }
 
+Homography Tracker::learned_place() const {
+  const Template& model = parts_->model;
+  const auto& lens = parts_->options.lens;
+  if (!lens) return placed(model.box());
+  const Homography straight = straight_place(model.box(), *lens);
+  return bent_view(straight, model.width(), model.height(), *lens).value_or(straight);
+}
+
 TrackState Tracker::start(int image_width, int image_height) const {
   TrackState state;
   state.window = first_window(parts_->model.box(), image_width, image_height);
-  state.last_seen = placed(parts_->model.box());
+  state.last_seen = learned_place();
   return state;
 }
 

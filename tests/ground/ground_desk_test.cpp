@@ -114,6 +114,53 @@ TEST_F(Desk, ATemplateIsDrawnExaminedAndUsed) {
   EXPECT_NEAR(course->task.goal.translation.z(), task_.goal.translation.z(), 0.01);
 }
 
+/// Through a lens: drawn beside the middle, where the lens bends it by several pixels, the goal is
+/// where the camera is, as the law will measure it in the next frame.
+TEST_F(Desk, ATemplateDrawnThroughALensIsHeldWhereItWasDrawn) {
+  Task task = task_;
+  CameraParameters bent = task.camera.parameters();
+  bent.lens = Lens::PlumbBob;
+  bent.distortion = {-0.28, 0.08, 0, 0, 0};
+  task.camera = Camera(bent);
+  task.track.lens = task.camera;
+  GroundDesk desk(task, gate_, "lens");
+  const std::string who = desk.handle(asked(Ask::Join, ""), 0).client;
+  ASSERT_EQ(desk.handle(asked(Ask::Take, who), 0).answer.kind, Answer::Kind::Done);
+  auto view = std::make_shared<GroundView>();
+  view->row.frame = 1;
+  view->gray = picture();
+  desk.show(view);
+  GroundCommand freeze = asked(Ask::Freeze, who);
+  freeze.frame = 1;
+  ASSERT_EQ(desk.handle(freeze, 0).answer.kind, Answer::Kind::Done);
+  GroundCommand examine = asked(Ask::Examine, who);
+  const double side = std::floor(picture().rows * 0.4);
+  examine.box = PixelBox{std::floor(picture().cols * 0.6), 10, side, side};
+  const Reply seen = desk.handle(examine, 0);
+  ASSERT_EQ(seen.answer.kind, Answer::Kind::Done) << seen.answer.words;
+  GroundCommand use = asked(Ask::Use, who);
+  use.width_m = 1;
+  const Answer used = desk.handle(use, 0).answer;
+  ASSERT_EQ(used.kind, Answer::Kind::Done) << used.words;
+  auto course = desk.course();
+  ASSERT_TRUE(course && course->tracker);
+  Frame frame;
+  frame.gray = picture();
+  const Track track =
+      course->tracker->track(frame, course->tracker->start(frame.gray.cols, frame.gray.rows));
+  ASSERT_TRUE(track.found());
+  const auto straight = straight_view(track, side, side, task.camera);
+  ASSERT_TRUE(straight);
+  const PlaneSize size{side, side, course->task.target_width_m, course->task.target_height_m};
+  const auto pose = plane_pose(straight->image_from_template, size, straight->camera, std::nullopt);
+  ASSERT_TRUE(pose);
+  // A tenth of a pixel on a side of some 100 px is 0.1 % of the distance and of a turn's sine 1 %.
+  const TargetPose& goal = course->task.goal;
+  const TargetPose here = levelled(pose->camera_from_target, std::nullopt, task.body_from_camera);
+  EXPECT_LT((here.translation - goal.translation).norm(), 0.02 * goal.translation.norm());
+  EXPECT_LT((here.rotation.transpose() * goal.rotation - Eigen::Matrix3d::Identity()).norm(), 0.05);
+}
+
 TEST_F(Desk, AnOldPictureAndABadRectangleAreRefused) {
   for (int i = 0; i <= int(GroundDesk::kKeptViews); ++i) show(i, std::nullopt);
   GroundCommand freeze = asked(Ask::Freeze, first_);

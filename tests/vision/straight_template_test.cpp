@@ -36,6 +36,9 @@ cv::Mat seen_through(const Camera& camera) {
 TEST(StraightTemplate, IsThePictureWithoutALens) {
   const cv::Mat picture = seen_through(Camera(kNone));
   EXPECT_EQ(straight_template(picture, kBox, Camera(kNone)).data, picture.data);
+  const Pixel first = straight_place(kBox, Camera(kNone)) * Pixel{0, 0};
+  EXPECT_EQ(first.u, kBox.u);
+  EXPECT_EQ(first.v, kBox.v);
 }
 
 // Each pixel of the box is the plane's grey where a straight camera of that span has it: to the two
@@ -49,6 +52,8 @@ TEST(StraightTemplate, HasStraightLines) {
   const ImagePoint b = corner(259.5, 39.5);
   const ImagePoint c = corner(259.5, 199.5);
   const ImagePoint d = corner(59.5, 199.5);
+  const Homography place = straight_place(kBox, camera);
+  const Camera pinhole(kNone);
   double most_bent = 0;
   for (int row = 0; row < 160; row += 3) {
     for (int column = 0; column < 200; column += 3) {
@@ -57,6 +62,9 @@ TEST(StraightTemplate, HasStraightLines) {
       const ImagePoint m{(1 - s) * (a.x + d.x) / 2 + s * (b.x + c.x) / 2,
                          (1 - t) * (a.y + b.y) / 2 + t * (c.y + d.y) / 2};
       EXPECT_NEAR(straight.at<uchar>(40 + row, 60 + column), grey(m), 2);
+      const ImagePoint there = pinhole.to_image_point(place * Pixel{double(column), double(row)});
+      EXPECT_NEAR(there.x, m.x, 1e-12);
+      EXPECT_NEAR(there.y, m.y, 1e-12);
       most_bent = std::max(most_bent, std::abs(picture.at<uchar>(40 + row, 60 + column) - grey(m)));
     }
   }

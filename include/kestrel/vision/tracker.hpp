@@ -22,6 +22,9 @@ class Tracker {
   const Template& model() const;
   const TrackOptions& options() const;
 
+  /// Where the template is in the frame it was learned from; through a lens the nearest homography.
+  Homography learned_place() const;
+
   /// State before the first frame: a window twice the template's size about the place it was
   /// learned at.
   TrackState start(int image_width, int image_height) const;
