@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,9 @@
 
 namespace kestrel::app {
 namespace {
+
+/// What cannot be said (a full disk behind stderr) ends nothing.
+void say(const std::string& words) noexcept { std::fwrite(words.data(), 1, words.size(), stderr); }
 
 double unix_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -93,7 +97,7 @@ void Ground::listen_to_keys() {
       stop.ask = Ask::Abort;
       words = station_->desk().handle(stop, monotonic_s()).answer.words;
     }
-    if (!words.empty()) fmt::print(stderr, "\nterminal: {}\n", words);
+    if (!words.empty()) say("\nterminal: " + words + "\n");
   });
 }
 

@@ -41,7 +41,7 @@ class Ground {
   Ground(const GroundArguments& arguments, const Task& task, CommandSink& sink,
          Facts facts = nullptr);
 
-  /// Where the chain sends: the gate, or without a ground station the sink itself.
+  /// Where the chain sends: the gate, or without a ground station and keys the sink itself.
   CommandSink& sink() { return gate_ ? *gate_ : sink_; }
 
   /// For Chain::ground; null without.

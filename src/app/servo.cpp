@@ -37,7 +37,7 @@ LearnedTask learned(const Experiment& experiment, const std::optional<Simulation
 GroundArguments with_task(GroundArguments ground, const Experiment& experiment) {
   if (!ground.link.empty()) return ground;
   ground.link = experiment.ground_link;
-  ground.link_key = experiment.ground_link_key;
+  if (ground.link_key.empty()) ground.link_key = experiment.ground_link_key;
   return ground;
 }
 

@@ -43,6 +43,7 @@ void restore() {
 void take() {
   termios single = before;
   single.c_lflag &= ~tcflag_t(ICANON | ECHO);
+  single.c_iflag &= ~tcflag_t(IXON);  // Ctrl-S would hold up whoever prints, the loop too
   single.c_cc[VMIN] = 1;
   single.c_cc[VTIME] = 0;
   if (tcsetattr(STDIN_FILENO, TCSANOW, &single) == 0) is_changed = true;
@@ -119,12 +120,17 @@ class NoSignals {
   sigset_t before_{};
 };
 
-/// What was typed; empty when nothing is there, "\x04" at the end of the terminal.
+/// What was typed; empty when nothing is there.
 std::string typed() {
   std::array<char, 64> keys{};
   const ssize_t count = ::read(STDIN_FILENO, keys.data(), keys.size());
-  if (count == 0) return "\x04";
-  return count < 0 ? std::string() : std::string(keys.data(), std::size_t(count));
+  return count <= 0 ? std::string() : std::string(keys.data(), std::size_t(count));
+}
+
+/// Whether somebody has set the terminal back, as a shell does with a program it was not told of.
+bool is_cooked() {
+  termios now{};
+  return tcgetattr(STDIN_FILENO, &now) == 0 && (now.c_lflag & (ICANON | ECHO)) != 0;
 }
 
 }  // namespace
@@ -156,16 +162,21 @@ TerminalKeys::~TerminalKeys() {
 void TerminalKeys::run() {
   while (true) {
     const bool ours = is_in_foreground();
-    if (ours && !is_changed && !is_ending) take();
+    if (!ours) is_changed = false;  // what it is now is the other's
+    if (ours && !is_ending && (!is_changed || is_cooked())) take();
     if (is_ending) restore();
-    std::array<pollfd, 2> waits{{{wake_, POLLIN, 0}, {is_changed ? STDIN_FILENO : -1, POLLIN, 0}}};
+    const bool listens = ours && is_changed;
+    std::array<pollfd, 2> waits{{{wake_, POLLIN, 0}, {listens ? STDIN_FILENO : -1, POLLIN, 0}}};
     ::poll(waits.data(), waits.size(), kLook_ms);
     if (waits[0].revents != 0) return;
     if ((waits[1].revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) return;
     if (!ours || (waits[1].revents & POLLIN) == 0) continue;
     const std::string keys = typed();
-    if (keys == "\x04") return;
-    if (!keys.empty()) on_key_(keys);
+    if (!keys.empty()) {
+      on_key_(keys);
+    } else {
+      ::poll(waits.data(), 1, kLook_ms);  // an end of a line, or of a file, is not one of the keys
+    }
   }
 }
 

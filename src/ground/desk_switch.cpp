@@ -53,9 +53,17 @@ void GroundDesk::hear_switch() {
   if (by_hand_ == nullptr) return;
   by_hand_->look_after();
   for (const std::string& words : by_hand_->take_words()) tell(words);
-  if (mode_ != FlightMode::Sticks) return;
   const OperatorStatus status = by_hand_->status();
-  if (status.holds && status.is_heard && !is_stopped(status)) return;
+  if (mode_ == FlightMode::Servo && is_stopped(status)) {
+    tell(
+        "the switch was stopped: the law waits for Start");  // whoever resets it sets nothing going
+    stop_or_start(Ask::Hover);
+  }
+  if (mode_ != FlightMode::Sticks) return;
+  // Granted, and ended by somebody else: only its priority would be left of the take-over.
+  const bool is_lost =
+      status.open.empty() && status.control && status.control->state != ControlState::TakenOver;
+  if (status.holds && status.is_heard && !is_stopped(status) && !is_lost) return;
   tell(status.is_heard ? "the switch does not let the hand fly" : "the switch is not heard");
   stop_or_start(Ask::Hover);
 }

@@ -11,6 +11,7 @@ namespace kestrel {
 namespace {
 
 constexpr double kHeartbeatPeriod_s = 1;
+constexpr int kMostDatagrams = 16;  // a turn, as the switch: a flood holds up no stop
 constexpr double kLongestFarewell_s = 0.5;
 constexpr std::chrono::milliseconds kFarewellTurn{5};
 
@@ -91,7 +92,11 @@ void OperatorLink::reset() {
 
 void OperatorLink::look_after() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  while (const auto datagram = socket_.take()) hear(datagram->bytes);
+  for (int i = 0; i < kMostDatagrams; ++i) {
+    const auto datagram = socket_.take();
+    if (!datagram) break;
+    hear(datagram->bytes);
+  }
   const double now_s = link_clock_s();
   if (!next_heartbeat_s_ || now_s >= *next_heartbeat_s_) {
     next_heartbeat_s_ = now_s + kHeartbeatPeriod_s;

@@ -85,6 +85,8 @@ void SwitchOperator::reset() {
   drop(SwitchControl::EmergencyStop);
   drop(SwitchControl::Reset);
   ask(SwitchControl::Reset);
+  // Before a release that nobody answers: late it would end a stop that came meanwhile.
+  std::rotate(open_.begin(), std::prev(open_.end()), open_.end());
 }
 
 std::optional<mavlink::CommandLong> SwitchOperator::due(double now_s) {

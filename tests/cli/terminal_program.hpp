@@ -67,6 +67,8 @@ class TerminalProgram {
   }
   /// Whether keys come one by one and are not shown.
   bool is_single() const { return (attributes().c_lflag & tcflag_t(ICANON | ECHO)) == 0; }
+  /// Sets the terminal back, as a shell does.
+  void cook() const { tcsetattr(master_, TCSANOW, &before_); }
   /// Whether the terminal is as it was before the program.
   bool is_as_before() const {
     const termios now = attributes();

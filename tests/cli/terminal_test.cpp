@@ -92,6 +92,11 @@ TEST_F(Terminal, SpaceAbortsUntilResetAndStart) {
   start(servo());
   ASSERT_TRUE(flies()) << terminal_->printed();
   EXPECT_TRUE(terminal_->is_single());
+  terminal_->type("\x04");  // Ctrl-D and Ctrl-S, slips of a finger, end and hold up nothing
+  terminal_->type("\x13");
+  EXPECT_TRUE(flies());
+  terminal_->cook();  // as a shell does that was not told of the program
+  ASSERT_TRUE(comes([&] { return terminal_->is_single(); }));
   const double pressed_s = now_s();
   terminal_->type(" ");
   ASSERT_TRUE(comes([&] { return vehicle_.stopped_s() > pressed_s; }));

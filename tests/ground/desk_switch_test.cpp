@@ -173,10 +173,29 @@ TEST_F(DeskAtASwitch, AStopOfSomebodyElseIsResetHereAndSetsNothingGoing) {
   OperatorLink tower(switch_->address(2), other);
   tower.stop();
   EXPECT_TRUE(comes([&] { return desk_.status().way.stopped; }));
+  EXPECT_EQ(desk_.mode(), FlightMode::Hover) << "whoever resets it, the law waits for Start";
   EXPECT_EQ(give(Ask::Grip).kind, Answer::Kind::Refused);
   EXPECT_EQ(give(Ask::Reset).kind, Answer::Kind::Done);
   EXPECT_EQ(desk_.mode(), FlightMode::Hover);
   EXPECT_TRUE(comes([&] { return !desk_.status().way.stopped; }));
+}
+
+TEST_F(DeskAtASwitch, ATakeOverThatSomebodyElseEndsIsAHover) {
+  ASSERT_TRUE(hears());
+  give(Ask::Start);
+  give(Ask::Grip);
+  EXPECT_TRUE(flies(kForward));
+  OperatorLinkOptions other;
+  other.component_id = 191;
+  OperatorLink tower(switch_->address(2), other);
+  tower.take_over();
+  tower.release();
+  for (int i = 0; i < 3; ++i) tower.look_after();
+  EXPECT_TRUE(comes([&] {
+    tower.look_after();
+    return desk_.mode() == FlightMode::Hover;
+  }));
+  EXPECT_TRUE(flies({}));
 }
 
 TEST_F(DeskAtASwitch, AHandThatTheSwitchDoesNotHearFliesNothing) {

@@ -128,6 +128,18 @@ TEST_F(Asked, AResetEndsTheAskingForAStop) {
   EXPECT_NE(told().find("reset: no answer\n"), std::string::npos);
 }
 
+TEST_F(Asked, AResetIsGivenUpThoughAReleaseIsStillAsked) {
+  operator_.take_over();
+  due();
+  answer(SwitchControl::TakeOver);
+  operator_.stop();
+  operator_.reset();
+  EXPECT_EQ(due(), 31014) << "before the release";
+  EXPECT_GE(sent_within(5), 20);
+  answer(SwitchControl::Release);
+  EXPECT_EQ(sent_within(2), 0) << "it would end the stop of somebody else by now";
+}
+
 TEST_F(Asked, TheSwitchIsHeardByItsHeartbeats) {
   EXPECT_FALSE(status().is_heard);
   EXPECT_EQ(words(status()), "The switch is not heard.");

@@ -51,6 +51,7 @@ function badge(id, words, colour) {
 }
 
 function showEvents() {
+  if (Replay.isThere) return;  // it has a list of its own
   const newest = desk.events.length ? desk.events[desk.events.length - 1].number : 0;
   if (newest < told) told = 0;  // the program was started anew
   for (const event of desk.events) {

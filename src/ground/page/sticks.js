@@ -80,6 +80,7 @@ const Sticks = (() => {
     const reply = await fly.give("grip");
     if (!reply.done) return forget();
     if (holders.size === 0) return fly.give("hover");  // let go meanwhile
+    if (timer !== null) return;  // and held again: the other answer came first
     timer = setInterval(push, kEvery_ms);
     push();
     show();
