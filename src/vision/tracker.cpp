@@ -52,9 +52,8 @@ struct Tracker::Parts {
     Sighting seen;
     if (fits) {
       seen = search->detect(frame, first, expected);
-      // Two that are alike stay two, though a strip of the frame may show one of them only.
-      if (seen.is_accepted() || seen.miss == Miss::Ambiguous ||
-          options.window != WindowPolicy::Kalman || area_px2(first) >= area_px2(whole(frame))) {
+      if (seen.is_accepted() || options.window != WindowPolicy::Kalman ||
+          area_px2(first) >= area_px2(whole(frame))) {
         return seen;
       }
     }
