@@ -92,7 +92,8 @@ TEST(AlignThroughALens, FindsTheStraightView) {
     for (int i = 0; i < 15; ++i) {
       const Homography H = any_view(random);
       ImagePyramid pyramid;
-      pyramid.look(through(camera, scene(H)), {0, 0, kWidth, kHeight}, with.levels(), Simd::Auto);
+      const cv::Mat image = through(camera, scene(H));  // the pyramid looks at it
+      pyramid.look(image, {0, 0, kWidth, kHeight}, with.levels(), Simd::Auto);
       const auto bent = bent_view(H, kSide, kSide, camera);
       if (!bent) continue;
       const Homography start =
