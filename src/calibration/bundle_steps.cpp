@@ -58,12 +58,18 @@ std::optional<Camera> camera_of(const BundleProblem& problem, const std::vector<
 
 ImagePoint projected(const Eigen::Vector3d& p) { return {p.x() / p.z(), p.y() / p.z()}; }
 
+ViewBlocks no_blocks(Eigen::Index values) {
+  ViewBlocks none;
+  none.A = MatrixXd::Zero(values, values);
+  none.B = MatrixXd::Zero(values, 6);
+  none.a = VectorXd::Zero(values);
+  return none;
+}
+
 ViewBlocks blocks(const BoardView& view, const std::vector<Eigen::Vector3d>& points,
                   const Camera& camera, const Neighbours& near, const TargetPose& pose) {
   const auto n = Eigen::Index(near.above.size());
-  ViewBlocks sum{MatrixXd::Zero(n, n), MatrixXd::Zero(n, 6), {}, VectorXd::Zero(n), {}};
-  sum.C.setZero();
-  sum.c.setZero();
+  ViewBlocks sum = no_blocks(n);
   for (const BoardPoint& point : view.points) {
     const Eigen::Vector3d p = pose * points[std::size_t(point.id)];
     const ImagePoint m = projected(p);
@@ -77,11 +83,7 @@ ViewBlocks blocks(const BoardView& view, const std::vector<Eigen::Vector3d>& poi
       J.col(i) << above.u - below.u, above.v - below.v;
       J.col(i) /= near.distance[std::size_t(i)];
     }
-    sum.A.noalias() += J.transpose() * J;
-    sum.B.noalias() += J.transpose() * J_pose;
-    sum.C.noalias() += J_pose.transpose() * J_pose;
-    sum.a.noalias() += J.transpose() * r;
-    sum.c.noalias() += J_pose.transpose() * r;
+    add(sum, J, J_pose, r);
   }
   return sum;
 }

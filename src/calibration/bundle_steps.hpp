@@ -17,6 +17,19 @@ struct ViewBlocks {
   Vector6d c = Vector6d::Zero();
 };
 
+/// Those of no measurement, of so many values.
+ViewBlocks no_blocks(Eigen::Index values);
+
+/// Adds a measurement: what it leaves over, and its derivatives by the values and the pose.
+template <class Values, class Pose, class Residual>
+void add(ViewBlocks& sum, const Values& J, const Pose& J_pose, const Residual& r) {
+  sum.A.noalias() += J.transpose() * J;
+  sum.B.noalias() += J.transpose() * J_pose;
+  sum.C.noalias() += J_pose.transpose() * J_pose;
+  sum.a.noalias() += J.transpose() * r;
+  sum.c.noalias() += J_pose.transpose() * r;
+}
+
 /// Cameras with one value a little larger and smaller. Projections are linear in every value, so
 /// their difference over the step is the derivative to rounding.
 struct Neighbours {

@@ -9,9 +9,7 @@
 namespace kestrel {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector4d;
-using Eigen::VectorXd;
 
 constexpr Eigen::Index kValues = 6;  // px, py, u0, v0, kud, kdu
 
@@ -71,18 +69,11 @@ double sum_px2(const BundleProblem& problem, const BundleState& state) {
 }
 
 ViewBlocks blocks_of(const BundleProblem& problem, const BundleState& state, std::size_t view) {
-  ViewBlocks sum{MatrixXd::Zero(kValues, kValues), MatrixXd::Zero(kValues, 6), Matrix6d::Zero(),
-                 VectorXd::Zero(kValues), Vector6d::Zero()};
+  ViewBlocks sum = no_blocks(kValues);
   for (const BoardPoint& point : problem.views[view].points) {
     const Eigen::Vector3d p = state.poses[view] * problem.points[std::size_t(point.id)];
     const Vector4d r = residual(state.values, projected(p), point.in_image);
-    const auto J = by_values(state.values, projected(p), point.in_image);
-    const auto J_pose = by_pose(state.values, p);
-    sum.A.noalias() += J.transpose() * J;
-    sum.B.noalias() += J.transpose() * J_pose;
-    sum.C.noalias() += J_pose.transpose() * J_pose;
-    sum.a.noalias() += J.transpose() * r;
-    sum.c.noalias() += J_pose.transpose() * r;
+    add(sum, by_values(state.values, projected(p), point.in_image), by_pose(state.values, p), r);
   }
   return sum;
 }

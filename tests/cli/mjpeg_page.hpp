@@ -1,15 +1,14 @@
 #pragma once
 
 #include <atomic>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "cli/bound_socket.hpp"
 
 namespace kestrel::test {
 
@@ -20,7 +19,7 @@ class MjpegPage {
  public:
   /// `boundary` is what the sender puts between its pictures.
   MjpegPage(int port, int feed_port, const std::string& boundary)
-      : listener_(listening(port)), feed_listener_(listening(feed_port)) {
+      : listener_(listening_socket(port)), feed_listener_(listening_socket(feed_port)) {
     header_ = "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace;boundary=" + boundary +
               "\r\n\r\n";
     thread_ = std::thread([this] { serve(); });
@@ -35,20 +34,6 @@ class MjpegPage {
   MjpegPage& operator=(const MjpegPage&) = delete;
 
  private:
-  static int listening(int port) {
-    const int made = socket(AF_INET, SOCK_STREAM, 0);
-    const int yes = 1;
-    setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(std::uint16_t(port));
-    if (bind(made, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
-        listen(made, 4) != 0)
-      throw std::runtime_error("no port on the loopback");
-    return made;
-  }
-
   void serve() {
     while (!stop_) {
       pollfd sockets[] = {{listener_, POLLIN, 0}, {feed_listener_, POLLIN, 0}, {feed_, POLLIN, 0}};

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <atomic>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "cli/bound_socket.hpp"
 
 namespace kestrel::test {
 
@@ -19,8 +18,7 @@ namespace kestrel::test {
 class RtspServer {
  public:
   RtspServer(int port, int feed_port)
-      : listener_(bound(SOCK_STREAM, port)), feed_(bound(SOCK_DGRAM, feed_port)) {
-    listen(listener_, 4);
+      : listener_(listening_socket(port)), feed_(bound_socket(SOCK_DGRAM, feed_port)) {
     thread_ = std::thread([this] { serve(); });
   }
   ~RtspServer() {
@@ -33,19 +31,6 @@ class RtspServer {
   RtspServer& operator=(const RtspServer&) = delete;
 
  private:
-  static int bound(int kind, int port) {
-    const int made = socket(AF_INET, kind, 0);
-    const int yes = 1;
-    setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(std::uint16_t(port));
-    if (bind(made, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-      throw std::runtime_error("no port on the loopback");
-    return made;
-  }
-
   void serve() {
     while (!stop_) {
       pollfd sockets[] = {{listener_, POLLIN, 0}, {viewer_, POLLIN, 0}, {feed_, POLLIN, 0}};

@@ -30,15 +30,15 @@ class DeskAtASwitch : public testing::Test {
   }
 
   SwitchLoopOptions options() {
-    SwitchLoopOptions options = test::loopback_switch(flight_.local());
-    options.core.links[2].transport = Transport::Datagram;
-    options.places[2].place = parse_link_place("udp-listen://127.0.0.1:0");
-    options.core.heartbeat_period_s = 0.05;  // of a quick switch, so that the tests are
-    options.core.missed_heartbeats = 100;
-    options.core.rate_hz = 50;
-    options.core.deadman_s = 0.15;
+    SwitchLoopOptions options = test::quick_switch(flight_.local());
     options.core.links[3].priority = 70;  // a script above vision and below the ground
     return options;
+  }
+
+  OperatorLink another_station() const {
+    OperatorLinkOptions options;
+    options.component_id = 191;
+    return {switch_->address(2), options};
   }
 
   GroundCommand asked(Ask ask) {
@@ -168,9 +168,7 @@ TEST_F(DeskAtASwitch, AStopOfSomebodyElseIsResetHereAndSetsNothingGoing) {
   ASSERT_TRUE(hears());
   give(Ask::Start);
   EXPECT_TRUE(flies(kRight));
-  OperatorLinkOptions other;
-  other.component_id = 191;
-  OperatorLink tower(switch_->address(2), other);
+  OperatorLink tower = another_station();
   tower.stop();
   EXPECT_TRUE(comes([&] { return desk_.status().way.stopped; }));
   EXPECT_EQ(desk_.mode(), FlightMode::Hover) << "whoever resets it, the law waits for Start";
@@ -185,9 +183,7 @@ TEST_F(DeskAtASwitch, ATakeOverThatSomebodyElseEndsIsAHover) {
   give(Ask::Start);
   give(Ask::Grip);
   EXPECT_TRUE(flies(kForward));
-  OperatorLinkOptions other;
-  other.component_id = 191;
-  OperatorLink tower(switch_->address(2), other);
+  OperatorLink tower = another_station();
   tower.take_over();
   tower.release();
   for (int i = 0; i < 3; ++i) tower.look_after();

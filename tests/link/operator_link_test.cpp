@@ -22,16 +22,7 @@ constexpr double kUnixAtZero_s = 1.8e9;  // as RunningSwitch's clock of the wall
 /// A switch whose link 2 is a ground station's over UDP, and flight control behind it.
 class Operator : public testing::Test {
  protected:
-  SwitchLoopOptions options() {
-    SwitchLoopOptions options = test::loopback_switch(flight_.local());
-    options.core.links[2].transport = Transport::Datagram;
-    options.places[2].place = parse_link_place("udp-listen://127.0.0.1:0");
-    options.core.heartbeat_period_s = 0.05;  // of a quick switch, so that the tests are
-    options.core.missed_heartbeats = 100;
-    options.core.rate_hz = 50;
-    options.core.deadman_s = 0.15;
-    return options;
-  }
+  SwitchLoopOptions options() { return test::quick_switch(flight_.local()); }
 
   /// True as soon as the condition is, while the link is looked after.
   template <class Condition>
