@@ -112,11 +112,12 @@ TEST_P(Lenses, TrackAndServoSeeTheSameDistances) {
     EXPECT_LE(worst, 0.03) << verb;
   }
   // The film's truth: the outline as the lens shows it, against the nearest homography of ours.
+  // Taken for a bent one the template would be 0.9 px off.
   std::vector<double> errors_px = read_log(folder / "track/run.csv").extra("corner_error_px");
   ASSERT_EQ(errors_px.size(), truth.size());
   std::sort(errors_px.begin(), errors_px.end());
   std::printf("track: corners to %.2f px, the worst %.2f\n", errors_px[30], errors_px.back());
-  EXPECT_LE(errors_px.back(), 2);
+  EXPECT_LE(errors_px.back(), 0.6);
 }
 
 /// A lens of a usual webcam bends the corners of the image by some 30 px; the fisheye is one of 60
